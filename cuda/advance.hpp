@@ -1,0 +1,17 @@
+// Last part of a step: velocities and positions.
+#pragma once
+
+#include "backend/buffer.hpp"
+#include "particles.hpp"
+
+namespace slagflow {
+
+// v = the solved velocity, x += dt v (positions in fp64). Returns the largest distance [m] from `reference`,
+// the places at which the neighbour list was built; not-a-number when a velocity is.
+double advance_particles(Context&, FluidArrays&, Span<const Quad> velocity, const Buffer<Quad>& reference,
+                         Buffer<Real>& scratch, double dt);
+
+// Largest speed [m/s].
+double largest_speed(Context&, const FluidArrays&, Buffer<Real>& scratch);
+
+}  // namespace slagflow

@@ -1,0 +1,96 @@
+#include <omp.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+#include "backend/context.hpp"
+#include "backend/device.hpp"
+#include "backend/error.hpp"
+
+namespace slagflow {
+
+using Clock = std::chrono::steady_clock;
+
+struct Context::Native {
+  struct Timer {
+    Clock::time_point started;
+    double total = 0;
+  };
+  std::map<std::string, Timer> timers;
+};
+
+Context::Context() : native_(std::make_unique<Native>()) {}
+
+Context::~Context() { release(workspace_, workspace_bytes_); }
+
+void* Context::allocate(std::size_t bytes, const char* what) {
+  if (bytes == 0) return nullptr;
+  constexpr std::size_t line = 64;
+  void* memory =
+      bytes > std::size_t(1) << 48 ? nullptr : std::aligned_alloc(line, (bytes + line - 1) / line * line);
+  if (!memory)
+    throw Error("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
+                std::to_string(allocated_) + " are in use");
+  allocated_ += bytes;
+  return memory;
+}
+
+void Context::release(void* memory, std::size_t bytes) noexcept {
+  if (!memory) return;
+  std::free(memory);
+  allocated_ -= bytes;
+}
+
+void* Context::workspace(std::size_t bytes) {
+  if (bytes > workspace_bytes_) {
+    release(workspace_, workspace_bytes_);
+    workspace_ = nullptr, workspace_bytes_ = 0;
+    workspace_ = allocate(bytes, "workspace");
+    workspace_bytes_ = bytes;
+  }
+  return workspace_;
+}
+
+void Context::copy_to_device(void* device, const void* host, std::size_t bytes) {
+  if (bytes) std::memcpy(device, host, bytes);
+}
+void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
+  if (bytes) std::memcpy(host, device, bytes);
+}
+void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
+  if (bytes) std::memcpy(to, from, bytes);
+}
+void Context::synchronize() {}
+
+void Context::begin(const char* label) { native_->timers[label].started = Clock::now(); }
+
+void Context::end(const char* label) {
+  auto& timer = native_->timers[label];
+  timer.total += std::chrono::duration<double>(Clock::now() - timer.started).count();
+}
+
+std::map<std::string, double> Context::timings() {
+  std::map<std::string, double> result;
+  for (const auto& [label, timer] : native_->timers) result[label] = timer.total;
+  return result;
+}
+
+void* Context::stream() const { return nullptr; }
+
+DeviceInfo device_info() {
+  DeviceInfo info{"cpu", "unknown processor", omp_get_max_threads()};
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.rfind("model name", 0) == 0) {
+      info.name = line.substr(line.find(':') + 2);
+      break;
+    }
+  return info;
+}
+
+void set_threads(int count) { omp_set_num_threads(count); }
+
+}  // namespace slagflow

@@ -1,0 +1,131 @@
+#include <nvtx3/nvToolsExt.h>
+
+#include "backend/check.hpp"
+#include "backend/context.hpp"
+#include "backend/device.hpp"
+
+namespace slagflow {
+
+struct Context::Native {
+  struct Timer {
+    cudaEvent_t start = nullptr, stop = nullptr;
+    bool pending = false;
+    double total = 0;
+  };
+  cudaStream_t stream = nullptr;
+  std::map<std::string, Timer> timers;
+
+  // Adds the last interval of a timer, which ended about a step ago.
+  static void collect(Timer& timer) {
+    if (!timer.pending) return;
+    float milliseconds = 0;
+    check(cudaEventSynchronize(timer.stop), "event synchronise");
+    check(cudaEventElapsedTime(&milliseconds, timer.start, timer.stop), "event time");
+    timer.total += 1e-3 * milliseconds;
+    timer.pending = false;
+  }
+};
+
+Context::Context() : native_(std::make_unique<Native>()) {
+  check(cudaStreamCreateWithFlags(&native_->stream, cudaStreamNonBlocking), "stream create");
+}
+
+Context::~Context() {
+  release(workspace_, workspace_bytes_);
+  for (auto& [label, timer] : native_->timers) {
+    cudaEventDestroy(timer.start);
+    cudaEventDestroy(timer.stop);
+  }
+  cudaStreamDestroy(native_->stream);
+}
+
+void* Context::allocate(std::size_t bytes, const char* what) {
+  if (bytes == 0) return nullptr;
+  void* memory = nullptr;
+  const cudaError_t status = cudaMalloc(&memory, bytes);
+  if (status == cudaErrorMemoryAllocation) {
+    cudaGetLastError();  // clears it: the caller may go on
+    throw Error("out of device memory: " + std::string(what) + " needs " + std::to_string(bytes) +
+                " bytes, " + std::to_string(allocated_) + " are in use");
+  }
+  check(status, what);
+  allocated_ += bytes;
+  return memory;
+}
+
+void Context::release(void* memory, std::size_t bytes) noexcept {
+  if (!memory) return;
+  cudaFree(memory);
+  allocated_ -= bytes;
+}
+
+void* Context::workspace(std::size_t bytes) {
+  if (bytes > workspace_bytes_) {
+    synchronize();
+    release(workspace_, workspace_bytes_);
+    workspace_ = nullptr, workspace_bytes_ = 0;
+    workspace_ = allocate(bytes, "workspace");
+    workspace_bytes_ = bytes;
+  }
+  return workspace_;
+}
+
+void Context::copy_to_device(void* device, const void* host, std::size_t bytes) {
+  if (!bytes) return;
+  check(cudaMemcpyAsync(device, host, bytes, cudaMemcpyHostToDevice, native_->stream), "copy to device");
+  synchronize();
+}
+
+void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
+  if (!bytes) return;
+  check(cudaMemcpyAsync(host, device, bytes, cudaMemcpyDeviceToHost, native_->stream), "copy to host");
+  synchronize();
+}
+
+void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
+  if (!bytes) return;
+  check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, native_->stream), "copy on device");
+}
+
+void Context::synchronize() { check(cudaStreamSynchronize(native_->stream), "synchronise"); }
+
+void Context::begin(const char* label) {
+  nvtxRangePushA(label);
+  auto& timer = native_->timers[label];
+  if (!timer.start) {
+    check(cudaEventCreate(&timer.start), "event create");
+    check(cudaEventCreate(&timer.stop), "event create");
+  }
+  Native::collect(timer);
+  check(cudaEventRecord(timer.start, native_->stream), "event record");
+}
+
+void Context::end(const char* label) {
+  nvtxRangePop();
+  auto& timer = native_->timers[label];
+  // A failed launch has been or will be reported by its own check; a destructor must not throw.
+  timer.pending = cudaEventRecord(timer.stop, native_->stream) == cudaSuccess;
+}
+
+std::map<std::string, double> Context::timings() {
+  std::map<std::string, double> result;
+  for (auto& [label, timer] : native_->timers) {
+    Native::collect(timer);
+    result[label] = timer.total;
+  }
+  return result;
+}
+
+void* Context::stream() const { return native_->stream; }
+
+DeviceInfo device_info() {
+  int device = 0;
+  cudaDeviceProp properties{};
+  check(cudaGetDevice(&device), "no usable GPU");
+  check(cudaGetDeviceProperties(&properties, device), "device properties");
+  return {"cuda", properties.name, 1};
+}
+
+void set_threads(int) {}
+
+}  // namespace slagflow

@@ -1,0 +1,29 @@
+// Sort, scan and reduce on device data: CUB in a CUDA build, Thrust in a CPU build.
+#pragma once
+
+#include <cstdint>
+
+#include "backend/context.hpp"
+#include "backend/span.hpp"
+
+namespace slagflow {
+
+// Sorts the keys in ascending order and the values along with them; equal keys keep their order.
+// Only the lowest `bits` bits of the keys are compared. The alternates are scratch of the same size;
+// the result is in `keys` and `values`.
+struct SortScratch {
+  Span<std::uint64_t> keys;
+  Span<Index> values;
+};
+void sort_by_key(Context&, Span<std::uint64_t> keys, Span<Index> values, SortScratch scratch, int bits);
+
+// result[0] = 0, result[i+1] = result[i] + counts[i]; result has one element more than counts.
+void exclusive_scan(Context&, Span<const Offset> counts, Span<Offset> result);
+
+// Sum in an order that does not depend on the number of threads. Waits for the result.
+double sum(Context&, Span<const double> values);
+
+// Largest value, or `floor` when there is none larger. A not-a-number yields not-a-number.
+double maximum(Context&, Span<const Real> values, double floor);
+
+}  // namespace slagflow

@@ -1,0 +1,97 @@
+#include <limits>
+
+#include "backend/error.hpp"
+#include "constants.hpp"
+#include "smoothing/lucy.hpp"
+
+namespace slagflow {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw InputError(message);
+}
+
+double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.dimensions); }
+
+}  // namespace
+
+void validate(const SimulationSetup& s) {
+  require(s.spacing > 0, "spacing is " + std::to_string(s.spacing) + " m; allowed: larger than 0");
+  require(s.dimensions == 2 || s.dimensions == 3,
+          "dimensions is " + std::to_string(s.dimensions) + "; allowed: 2, 3");
+  require(s.numerics.sound_speed > 0,
+          "sound_speed is " + std::to_string(s.numerics.sound_speed) + " m/s; allowed: larger than 0");
+  require(s.numerics.theta > 0 && s.numerics.theta <= 1,
+          "theta is " + std::to_string(s.numerics.theta) + "; allowed: 0.5 to 1");
+  require(!s.fluids.empty(), "there is no fluid");
+  const auto& p = s.particles;
+  const std::size_t n = p.position.size();
+  require(n < static_cast<std::size_t>(std::numeric_limits<Index>::max()),
+          "more than 2^31 - 1 fluid particles");
+  require(p.velocity.size() == n && p.pressure.size() == n && p.fluid.size() == n,
+          "particle arrays differ in length");
+  const auto& w = s.walls;
+  require(w.position.size() < static_cast<std::size_t>(std::numeric_limits<Index>::max()),
+          "more than 2^31 - 1 wall particles");
+  require(w.normal.size() == w.position.size() && w.depth.size() == w.position.size() &&
+              w.body.size() == w.position.size() &&
+              (w.back_depth.empty() || w.back_depth.size() == w.position.size()) &&
+              w.back_normal.size() == w.back_depth.size(),
+          "wall arrays differ in length");
+  for (int k = 0; k < 3; ++k)
+    require(s.domain.upper[k] > s.domain.lower[k],
+            "the domain has no extent along axis " + std::string(1, "xyz"[k]));
+}
+
+FlowConstants flow_constants(const SimulationSetup& s) {
+  const double h = s.support_ratio * s.spacing, c0 = s.numerics.sound_speed;
+  const Lucy smoothing(h, s.dimensions);
+  FlowConstants flow;
+  flow.dimensions = s.dimensions;
+  flow.spacing = static_cast<Real>(s.spacing);
+  flow.support = static_cast<Real>(h);
+  flow.wall_volume = static_cast<Real>(particle_volume(s));
+  flow.gravity = to_real(s.gravity);
+  flow.body_acceleration = to_real(s.body_acceleration);
+  flow.sound_speed_squared = static_cast<Real>(c0 * c0);
+  flow.diffusion = static_cast<Real>(s.numerics.density_diffusion * h * c0);
+  flow.tension_limit = static_cast<Real>(s.numerics.tension_limit);
+  flow.anti_pairing = static_cast<Real>(s.numerics.anti_pairing);
+  flow.pairing_reference = 1 / smoothing.value(flow.spacing);
+  const double correction = s.numerics.viscosity_correction;
+  flow.operator_factor = static_cast<Real>(2 * (s.dimensions + 2) * correction);
+  flow.shear_factor = static_cast<Real>((s.dimensions + 2) * correction);
+  flow.softening = static_cast<Real>(1e-6 * h * h);
+  return flow;
+}
+
+double particle_mass(const SimulationSetup& s, std::size_t kind) {
+  return s.fluids[kind].rest_density * particle_volume(s);
+}
+
+std::vector<FluidConstants> fluid_constants(const SimulationSetup& s) {
+  std::vector<FluidConstants> result;
+  for (std::size_t kind = 0; kind < s.fluids.size(); ++kind)
+    result.push_back({static_cast<Real>(s.fluids[kind].rest_density),
+                      static_cast<Real>(particle_mass(s, kind)), s.fluids[kind].rheology});
+  return result;
+}
+
+PeriodicBox periodic_box(const SimulationSetup& s) {
+  PeriodicBox box;
+  for (int k = 0; k < 3; ++k)
+    if (s.domain.periodic[static_cast<std::size_t>(k)]) {
+      const double extent = s.domain.upper[k] - s.domain.lower[k];
+      box.period[k] = static_cast<Real>(extent);
+      box.inverse[k] = static_cast<Real>(1 / extent);
+    }
+  return box;
+}
+
+double acoustic_time_step(const SimulationSetup& s) {
+  const double dt = s.numerics.courant * 0.5 * s.support_ratio * s.spacing / s.numerics.sound_speed;
+  return s.numerics.max_time_step > 0 ? smaller(dt, s.numerics.max_time_step) : dt;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,24 @@
+// From a setup to the constants that the device bodies use.
+#pragma once
+
+#include <vector>
+
+#include "params.hpp"
+#include "setup.hpp"
+
+namespace slagflow {
+
+// Throws InputError on values that no run can have.
+void validate(const SimulationSetup&);
+
+FlowConstants flow_constants(const SimulationSetup&);
+std::vector<FluidConstants> fluid_constants(const SimulationSetup&);
+// Of one particle of fluid `kind` [kg].
+double particle_mass(const SimulationSetup&, std::size_t kind);
+
+PeriodicBox periodic_box(const SimulationSetup&);
+
+// dt <= courant (h/2)/c0, and max_time_step when there is one [s].
+double acoustic_time_step(const SimulationSetup&);
+
+}  // namespace slagflow

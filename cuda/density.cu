@@ -1,0 +1,107 @@
+#include "backend/launch.hpp"
+#include "density.hpp"
+#include "smoothing/lucy.hpp"
+
+namespace slagflow {
+
+namespace {
+
+// Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
+template <class Smoothing, class Box>
+struct DensityAndShear {
+  PairContext c;
+  Smoothing smoothing;
+  Box box;
+  Real dt;
+  Span<Real> excess, shear_rate;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Vec3 x = xyz(c.fluid.place[i]);
+    const Quad motion = c.fluid.motion[i];
+    const Vec3 v = xyz(motion);
+    const FluidConstants& fluid = c.fluids[c.fluid.fluid[i]];
+    const Vec3 hydrostatic = (fluid.rest_density / c.flow.sound_speed_squared) * c.flow.gravity;
+    const Real h2 = square(c.flow.support);
+    Real divergence = 0, diffusion = 0, shear = 0;
+
+    const Offset first = c.fluid_list.row(i);
+    for (Index k = 0; k < c.fluid_list.length[i]; ++k) {
+      const Index j = c.fluid_list.entry[first + k * ListView::stride()];
+      const Quad there = c.fluid.place[j];
+      const Vec3 d = box.separation(x, xyz(there));
+      const Real r2 = dot(d, d);
+      if (r2 >= h2) continue;
+      const Quad other = c.fluid.motion[j];
+      const Real weight = there.w * smoothing.gradient(std::sqrt(r2));
+      const Real approach = dot(v - xyz(other), d);
+      divergence += weight * approach;
+      diffusion -= weight * ((other.w - motion.w) + dot(hydrostatic, d));
+      shear -= weight * approach * approach / (r2 + c.flow.softening);
+    }
+    walls(i, x, v, motion.w, hydrostatic, divergence, diffusion, shear);
+
+    const Real rate = (fluid.rest_density + motion.w) * divergence + c.flow.diffusion * diffusion;
+    excess[i] = motion.w + dt * rate;
+    shear_rate[i] = std::sqrt(c.flow.shear_factor * shear);
+  }
+
+  HOST_DEVICE void walls(Index i, Vec3 x, Vec3 v, Real own_excess, Vec3 hydrostatic, Real& divergence,
+                         Real& diffusion, Real& shear) const {
+    const Offset first = c.wall_list.row(i);
+    for (Index k = 0; k < c.wall_list.length[i]; ++k) {
+      const Index j = c.wall_list.entry[first + k * ListView::stride()];
+      const Vec3 d = box.separation(x, xyz(c.wall.place[j]));
+      const Real r2 = dot(d, d);
+      if (r2 >= square(c.flow.support)) continue;
+      const Quad other = c.wall.velocity[j];
+      const Real weight = c.flow.wall_volume * smoothing.gradient(std::sqrt(r2));
+      const Real approach = dot(v - xyz(other), d);
+      divergence += weight * approach;
+      // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
+      const Real pressure = c.wall.pressure[j];
+      if (pressure > -c.flow.tension_limit)
+        diffusion -= weight * ((pressure / c.flow.sound_speed_squared - own_excess) + dot(hydrostatic, d));
+      const Real stick = other.w * no_slip_factor(d, c.wall.normal[j], c.wall.back[j], c.flow.spacing);
+      shear -= stick * weight * approach * approach / (r2 + c.flow.softening);
+    }
+  }
+};
+
+struct StateFromDensity {
+  Span<const FluidConstants> fluids;
+  FlowConstants flow;
+  Span<const std::uint8_t> fluid;
+  Span<const Real> excess, shear_rate;
+  Span<Quad> place, motion, state;
+  Span<Real> pressure;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const FluidConstants& f = fluids[fluid[i]];
+    const Real density = f.rest_density + excess[i];
+    const Real p = larger(flow.sound_speed_squared * excess[i], -flow.tension_limit);
+    motion[i].w = excess[i];
+    place[i].w = f.mass / density;
+    pressure[i] = p;
+    state[i] = {p / square(density), viscosity(f.rheology, shear_rate[i]), f.mass / density, f.mass};
+  }
+};
+
+}  // namespace
+
+void update_density(Context& context, const PairContext& c, FluidArrays& fluid, Buffer<Real>& scratch,
+                    Real dt) {
+  const Lucy smoothing(c.flow.support, c.flow.dimensions);
+  scratch.resize(fluid.count);
+  auto sweep = [&](auto box) {
+    launch(
+        context, "density and shear rate", fluid.count,
+        DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, dt, scratch.span(), fluid.shear_rate.span()});
+  };
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+  launch(
+      context, "state", fluid.count,
+      StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
+                       fluid.place.span(), fluid.motion.span(), fluid.state.span(), fluid.pressure.span()});
+}
+
+}  // namespace slagflow

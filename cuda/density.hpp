@@ -1,0 +1,33 @@
+// First sweep over the pairs: continuity with density diffusion, pressure, shear rate and viscosity.
+#pragma once
+
+#include "backend/buffer.hpp"
+#include "neighbours.hpp"
+#include "params.hpp"
+#include "particles.hpp"
+
+namespace slagflow {
+
+// What a sweep over the pairs of the fluid particles needs.
+struct PairContext {
+  ListView fluid_list, wall_list;
+  FluidView fluid;
+  WallView wall;
+  Span<const FluidConstants> fluids;
+  FlowConstants flow;
+  PeriodicBox box;
+};
+
+// Advances the density by dt with
+//   d rho_i/dt = rho_i sum_j V_j (v_i - v_j).grad W_ij
+//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho_i) - rho0 g.(x_j - x_i)/c0^2]
+// (diffusion: G. Fourtakas et al., Comput. Fluids 190 (2019) 346), sets the pressure by the equation of state
+//   p = max(c0^2 (rho - rho0), -p_t)
+// and the viscosity from the shear rate
+//   gamma_i^2 = C (d+2) sum_j V_j |F_ij| ((v_i - v_j).x_ij)^2 / r^2,
+// which is the dissipation of the viscous operator itself: sqrt(2 D:D) of a linear incompressible flow, zero
+// for a rigid motion. Writes motion.w, place.w, state, pressure, shear_rate; `scratch` holds one number per
+// particle. Units in particles.hpp.
+void update_density(Context&, const PairContext&, FluidArrays&, Buffer<Real>& scratch, Real dt);
+
+}  // namespace slagflow

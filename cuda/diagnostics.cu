@@ -1,0 +1,224 @@
+#include "backend/launch.hpp"
+#include "backend/primitives.hpp"
+#include "constants.hpp"
+#include "diagnostics.hpp"
+
+namespace slagflow {
+
+namespace {
+
+template <class Term, class T>
+struct Store {
+  Term term;
+  Span<T> result;
+  HOST_DEVICE void operator()(Index i) const { result[i] = static_cast<T>(term(i)); }
+};
+
+template <class Term>
+double total(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
+  scratch.sums.resize(n);
+  launch(context, "diagnostic sum", n, Store<Term, double>{term, scratch.sums.span()});
+  return sum(context, scratch.sums.span());
+}
+
+template <class Term>
+double largest(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
+  constexpr double lowest = -1e30;
+  scratch.maxima.resize(n);
+  launch(context, "diagnostic maximum", n, Store<Term, Real>{term, scratch.maxima.span()});
+  return maximum(context, scratch.maxima.span(), lowest);
+}
+
+// Bodies: one number of particle i each.
+struct KineticEnergy {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Quad> motion;
+  HOST_DEVICE double operator()(Index i) const {
+    const Vec3d v = to_double(xyz(motion[i]));
+    return 0.5 * static_cast<double>(fluids[kind[i]].mass) * dot(v, v);
+  }
+};
+
+struct PotentialEnergy {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Vec3d> position;
+  Vec3d force, origin;
+  HOST_DEVICE double operator()(Index i) const {
+    return -static_cast<double>(fluids[kind[i]].mass) * dot(force, position[i] + origin);
+  }
+};
+
+// Of the equation of state: m c0^2 (rho - rho0)^2 / (2 rho0^2), where the pressure is not cut off.
+struct ElasticEnergy {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Quad> motion;
+  double sound_speed;
+  HOST_DEVICE double operator()(Index i) const {
+    const FluidConstants& f = fluids[kind[i]];
+    const double strain = larger(0.0, static_cast<double>(motion[i].w / f.rest_density));
+    return 0.5 * static_cast<double>(f.mass) * square(sound_speed * strain);
+  }
+};
+
+struct Momentum {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Quad> motion;
+  int axis;
+  HOST_DEVICE double operator()(Index i) const {
+    return static_cast<double>(fluids[kind[i]].mass) * to_double(xyz(motion[i]))[axis];
+  }
+};
+
+struct AngularMomentum {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Vec3d> position;
+  Span<const Quad> motion;
+  Vec3d origin;
+  int axis;
+  HOST_DEVICE double operator()(Index i) const {
+    return static_cast<double>(fluids[kind[i]].mass) *
+           cross(position[i] + origin, to_double(xyz(motion[i])))[axis];
+  }
+};
+
+struct IsFluid {
+  Span<const std::uint8_t> kind;
+  int wanted;
+  HOST_DEVICE double operator()(Index i) const { return kind[i] == wanted ? 1 : 0; }
+};
+
+struct SpeedSquared {
+  Span<const Quad> motion;
+  HOST_DEVICE Real operator()(Index i) const { return dot(xyz(motion[i]), xyz(motion[i])); }
+};
+
+struct Compression {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Quad> motion;
+  Real sign;
+  HOST_DEVICE Real operator()(Index i) const { return sign * motion[i].w / fluids[kind[i]].rest_density; }
+};
+
+// 1, or a coordinate, of the particles beyond a plane; else 0.
+struct Beyond {
+  Span<const Vec3d> position;
+  int axis, sign;
+  double line;
+  int coordinate;  // -1: count
+  HOST_DEVICE double operator()(Index i) const {
+    if (sign * (position[i][axis] - line) <= 0) return 0;
+    return coordinate < 0 ? 1.0 : position[i][coordinate];
+  }
+};
+
+struct Lead {
+  Span<const Vec3d> position;
+  int axis, sign;
+  HOST_DEVICE Real operator()(Index i) const { return static_cast<Real>(sign * position[i][axis]); }
+};
+
+struct Dissipation {
+  Span<const Quad> state;
+  Span<const Real> rate;
+  HOST_DEVICE double operator()(Index i) const {
+    return static_cast<double>(state[i].z) * static_cast<double>(state[i].y) *
+           square(static_cast<double>(rate[i]));
+  }
+};
+
+struct CountWithinSupport {
+  PairContext c;
+  HOST_DEVICE double count(Index i, const ListView& list, Span<const Quad> place) const {
+    int n = 0;
+    const Offset first = list.row(i);
+    for (Index k = 0; k < list.length[i]; ++k) {
+      const Vec3 d =
+          c.box.separation(xyz(c.fluid.place[i]), xyz(place[list.entry[first + k * ListView::stride()]]));
+      if (dot(d, d) < square(c.flow.support)) ++n;
+    }
+    return n;
+  }
+  HOST_DEVICE double operator()(Index i) const {
+    return count(i, c.fluid_list, c.fluid.place) + count(i, c.wall_list, c.wall.place);
+  }
+};
+
+FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& front, Vec3d origin,
+                         DiagnosticScratch& scratch) {
+  FrontState state;
+  const double line = front.position - origin[front.axis];
+  auto beyond = [&](int coordinate) {
+    return total(c, scratch, f.count, Beyond{f.position.span(), front.axis, front.sign, line, coordinate});
+  };
+  const double count = beyond(-1);
+  state.passed = static_cast<std::int64_t>(count);
+  if (count > 0)
+    for (int k = 0; k < 3; ++k) state.mean_position[k] = beyond(k) / count + origin[k];
+  if (f.count > 0)
+    state.extreme =
+        front.sign * largest(c, scratch, f.count, Lead{f.position.span(), front.axis, front.sign}) +
+        origin[front.axis];
+  return state;
+}
+
+}  // namespace
+
+void measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
+                    const SimulationSetup& setup, DiagnosticScratch& scratch, Totals& t) {
+  const Index n = f.count;
+  const auto position = f.position.span();
+  const auto motion = f.motion.span();
+  const auto kind = f.fluid.span();
+  const Vec3d origin = setup.domain.lower;
+  t.mass_in = 0;
+  for (std::size_t k = 0; k < setup.fluids.size(); ++k)
+    t.mass_in += total(c, scratch, n, IsFluid{kind, static_cast<int>(k)}) * particle_mass(setup, k);
+  t.fronts.resize(setup.fronts.size());
+  for (std::size_t k = 0; k < setup.fronts.size(); ++k)
+    t.fronts[k] = measure_front(c, f, setup.fronts[k], origin, scratch);
+  if (n == 0) return;
+  t.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
+  t.potential_energy =
+      total(c, scratch, n,
+            PotentialEnergy{fluids, kind, position, setup.gravity + setup.body_acceleration, origin});
+  for (int k = 0; k < 3; ++k) {
+    t.momentum[k] = total(c, scratch, n, Momentum{fluids, kind, motion, k});
+    t.angular_momentum[k] = total(c, scratch, n, AngularMomentum{fluids, kind, position, motion, origin, k});
+  }
+  t.max_speed = std::sqrt(largest(c, scratch, n, SpeedSquared{motion}));
+  t.max_density_error = larger(0.0, largest(c, scratch, n, Compression{fluids, kind, motion, 1}));
+  t.min_density_ratio = 1 - largest(c, scratch, n, Compression{fluids, kind, motion, -1});
+}
+
+Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
+                      const SimulationSetup& setup, DiagnosticScratch& scratch) {
+  const Index n = f.count;
+  const auto motion = f.motion.span();
+  const auto kind = f.fluid.span();
+  const Vec3d force = setup.gravity + setup.body_acceleration;
+  Vitals v;
+  v.max_speed = std::sqrt(largest(c, scratch, n, SpeedSquared{motion}));
+  v.max_compression = largest(c, scratch, n, Compression{fluids, kind, motion, 1});
+  v.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
+  v.stored_energy =
+      total(c, scratch, n, PotentialEnergy{fluids, kind, f.position.span(), force, setup.domain.lower}) +
+      total(c, scratch, n, ElasticEnergy{fluids, kind, motion, setup.numerics.sound_speed});
+  return v;
+}
+
+double dissipation(Context& c, const FluidArrays& f, DiagnosticScratch& scratch) {
+  return total(c, scratch, f.count, Dissipation{f.state.span(), f.shear_rate.span()});
+}
+
+double mean_neighbours(Context& context, const PairContext& c, DiagnosticScratch& scratch) {
+  if (c.fluid.count == 0) return 0;
+  return total(context, scratch, c.fluid.count, CountWithinSupport{c}) / c.fluid.count;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,37 @@
+// Sums over the fluid that a history line needs.
+#pragma once
+
+#include "density.hpp"
+#include "simulation.hpp"
+
+namespace slagflow {
+
+// Scratch of the sums.
+struct DiagnosticScratch {
+  explicit DiagnosticScratch(Context& c) : sums(c, "diagnostic sums"), maxima(c, "diagnostic maxima") {}
+  Buffer<double> sums;
+  Buffer<Real> maxima;
+};
+
+// Mass, energies, momenta, densities and fronts of the particles in the domain. Positions on the device are
+// relative to setup.domain.lower. Counts, the other masses and dissipation are the caller's.
+void measure_totals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                    DiagnosticScratch&, Totals&);
+
+// What the watch looks at.
+struct Vitals {
+  double max_speed = 0;        // [m/s]
+  double max_compression = 0;  // (rho - rho0)/rho0
+  double kinetic_energy = 0;   // [J]
+  double stored_energy = 0;    // [J] potential and elastic
+};
+Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                      DiagnosticScratch&);
+
+// Power that viscosity dissipates now [W]: sum_i V_i eta_i gamma_i^2.
+double dissipation(Context&, const FluidArrays&, DiagnosticScratch&);
+
+// Mean number of fluid and wall particles within the support radius of a fluid particle, itself not counted.
+double mean_neighbours(Context&, const PairContext&, DiagnosticScratch&);
+
+}  // namespace slagflow

@@ -1,0 +1,104 @@
+#include "backend/launch.hpp"
+#include "backend/primitives.hpp"
+#include "neighbours.hpp"
+
+namespace slagflow {
+
+// Calls found(j) for each source within reach of target i, in ascending order within each run of cells.
+template <class Box>
+struct Search {
+  SourceView sources;
+  Span<const Quad> targets;
+  Box box;
+  Real reach_squared;
+  int range;  // in cells
+  bool self;
+
+  template <class Found>
+  HOST_DEVICE void operator()(Index i, Found found) const {
+    const Vec3 here = xyz(targets[i]);
+    sources.grid.for_neighbour_cells(here, range, [&](Index first, Index last) {
+      const Index end = sources.cell_start[last + 1];
+      for (Index j = sources.cell_start[first]; j < end; ++j) {
+        const Vec3 d = box.separation(here, xyz(sources.place[j]));
+        if (dot(d, d) < reach_squared && !(self && j == i)) found(j);
+      }
+    });
+  }
+};
+
+namespace {
+
+template <class Box>
+struct CountRow {
+  Search<Box> search;
+  Span<Index> length;
+  HOST_DEVICE void operator()(Index i) const {
+    Index n = 0;
+    search(i, [&](Index) { ++n; });
+    length[i] = n;
+  }
+};
+
+struct MeasureSlice {
+  Span<const Index> length;
+  Span<Offset> slice_length;
+  HOST_DEVICE void operator()(Index s) const {
+    Index longest = 0;
+    const Offset first = static_cast<Offset>(s) * slice_width;
+    const Offset end = smaller(first + slice_width, length.size);
+    for (Offset i = first; i < end; ++i) longest = larger(longest, length[i]);
+    slice_length[s] = static_cast<Offset>(longest) * slice_width;
+  }
+};
+
+template <class Box>
+struct FillRow {
+  Search<Box> search;
+  Span<const Offset> slice;
+  Span<Index> entry;
+  HOST_DEVICE void operator()(Index i) const {
+    Offset at = slice[i / slice_width] + i % slice_width;
+    search(i, [&](Index j) {
+      entry[at] = j;
+      at += slice_width;
+    });
+  }
+};
+
+}  // namespace
+
+NeighbourList::NeighbourList(Context& context, const char* name)
+    : context_(context),
+      length_(context, name),
+      slice_length_(context, name),
+      slice_(context, name),
+      entry_(context, name) {}
+
+void NeighbourList::build(const SourceView& sources, Span<const Quad> targets, const PeriodicBox& box,
+                          Real reach, Pairs pairs) {
+  const int range = static_cast<int>(std::ceil(static_cast<double>(reach) / sources.grid.narrowest));
+  const bool self = pairs == Pairs::self;
+  if (box.any())
+    search_and_store(Search<PeriodicBox>{sources, targets, box, reach * reach, range, self});
+  else
+    search_and_store(Search<OpenBox>{sources, targets, {}, reach * reach, range, self});
+}
+
+template <class Box>
+void NeighbourList::search_and_store(const Search<Box>& search) {
+  const auto n = static_cast<Index>(search.targets.size);
+  const Index slices = (n + slice_width - 1) / slice_width;
+  length_.resize(n);
+  slice_length_.resize(slices);
+  slice_.resize(slices + 1);
+  launch(context_, "count neighbours", n, CountRow<Box>{search, length_.span()});
+  launch(context_, "measure slices", slices, MeasureSlice{length_.span(), slice_length_.span()});
+  exclusive_scan(context_, slice_length_.span(), slice_.span());
+  context_.copy_to_host(&capacity_, slice_.span().data + slices, sizeof capacity_);
+  constexpr Offset margin_percent = 5;
+  entry_.resize(capacity_, margin_percent);
+  launch(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), entry_.span()});
+}
+
+}  // namespace slagflow

@@ -1,0 +1,64 @@
+// Constants of a run as the device bodies use them.
+#pragma once
+
+#include "backend/span.hpp"
+#include "math.hpp"
+#include "models.hpp"
+
+namespace slagflow {
+
+// Positions on the device are relative to the domain's lower corner, so that fp32 keeps pair distances.
+// Periodic axes take the nearest image; an open axis has period and inverse 0.
+struct PeriodicBox {
+  Vec3 period, inverse;
+
+  bool any() const { return period.x != 0 || period.y != 0 || period.z != 0; }
+  HOST_DEVICE Vec3 separation(Vec3 a, Vec3 b) const {
+    Vec3 d = a - b;
+    d.x -= period.x * std::rint(d.x * inverse.x);
+    d.y -= period.y * std::rint(d.y * inverse.y);
+    d.z -= period.z * std::rint(d.z * inverse.z);
+    return d;
+  }
+};
+
+struct OpenBox {
+  HOST_DEVICE Vec3 separation(Vec3 a, Vec3 b) const { return a - b; }
+};
+
+struct FluidConstants {
+  Real rest_density;  // [kg/m^3]
+  Real mass;          // of a particle [kg]
+  Rheology rheology;
+};
+
+struct FlowConstants {
+  int dimensions = 3;
+  Real spacing = 0;              // [m]
+  Real support = 0;              // h [m]
+  Real wall_volume = 0;          // of a wall particle [m^3], [m^2] in 2-D
+  Vec3 gravity;                  // [m/s^2]
+  Vec3 body_acceleration;        // [m/s^2]
+  Real sound_speed_squared = 0;  // [m^2/s^2]
+  Real diffusion = 0;            // 2 delta (h/2) c0 [m^2/s]
+  Real tension_limit = 0;        // [Pa]
+  Real anti_pairing = 0;
+  Real pairing_reference = 0;  // 1 / W(spacing)
+  Real operator_factor = 0;    // C_visc 2 (d + 2): pair weight of the radial viscous operator
+  Real shear_factor = 0;       // C_visc (d + 2): pair weight of the squared shear rate
+  Real softening = 0;          // 1e-6 h^2 [m^2], keeps coincident pairs finite
+};
+
+// Morris' no-slip: a wall particle at depth d_w below the surface stands for the velocity that makes the
+// velocity linear through the surface, i.e. the pair weight grows by 1 + d_w/d_f, d_f the fluid particle's
+// distance from the surface. J. P. Morris et al., J. Comput. Phys. 136 (1997) 214.
+// normal: xyz unit normal, w depth [m]; back: the same of the opposite face of a thin plate, w = 0 without
+// one.
+HOST_DEVICE inline Real no_slip_factor(Vec3 fluid_minus_wall, Quad normal, Quad back, Real spacing) {
+  const bool behind = back.w > 0 && dot(fluid_minus_wall, xyz(back)) > back.w;
+  const Quad face = behind ? back : normal;
+  const Real d_f = dot(fluid_minus_wall, xyz(face)) - face.w;
+  return smaller(Real(3), 1 + face.w / larger(d_f, Real(0.25) * spacing));
+}
+
+}  // namespace slagflow

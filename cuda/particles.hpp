@@ -1,0 +1,88 @@
+// All particle data on the device. One meaning and one unit per field.
+#pragma once
+
+#include <cstdint>
+
+#include "backend/buffer.hpp"
+#include "math.hpp"
+
+namespace slagflow {
+
+// Fluid particles, sorted by cell, then by id.
+struct FluidArrays {
+  explicit FluidArrays(Context& c)
+      : position(c, "fluid positions"),
+        place(c, "fluid places"),
+        motion(c, "fluid motions"),
+        increment(c, "fluid viscous increments"),
+        id(c, "fluid ids"),
+        fluid(c, "fluid kinds"),
+        state(c, "fluid states"),
+        pressure(c, "fluid pressures"),
+        shear_rate(c, "fluid shear rates") {}
+
+  Index count = 0;
+  Buffer<Vec3d> position;  // [m] relative to the domain's lower corner, fp64: slow creep is kept
+  Buffer<Quad> place;      // xyz: the same rounded [m], w: volume [m^3]
+  Buffer<Quad> motion;     // xyz: velocity [m/s], w: density - rest density [kg/m^3]
+  Buffer<Quad> increment;  // xyz: what the last viscous solve added to the velocity [m/s]
+  Buffer<Index> id;
+  Buffer<std::uint8_t> fluid;  // index of the fluid
+  // Set anew each step:
+  Buffer<Quad> state;       // x: p/rho^2, y: dynamic viscosity [Pa s], z: volume [m^3], w: mass [kg]
+  Buffer<Real> pressure;    // [Pa]
+  Buffer<Real> shear_rate;  // [1/s]
+
+  void resize(Index n) {
+    count = n;
+    position.resize(n), place.resize(n), motion.resize(n), increment.resize(n), id.resize(n), fluid.resize(n);
+    state.resize(n), pressure.resize(n), shear_rate.resize(n);
+  }
+};
+
+// Wall particles, sorted by cell.
+struct WallArrays {
+  explicit WallArrays(Context& c)
+      : place(c, "wall places"),
+        normal(c, "wall normals"),
+        back(c, "wall back faces"),
+        velocity(c, "wall velocities"),
+        pressure(c, "wall pressures"),
+        id(c, "wall ids") {}
+
+  Index count = 0;
+  Buffer<Quad> place;     // xyz: position [m] relative to the domain's lower corner
+  Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
+  Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
+  Buffer<Quad> velocity;  // xyz: velocity [m/s], w: 1 no slip, 0 free slip
+  Buffer<Real> pressure;  // [Pa]
+  Buffer<Index> id;
+
+  void resize(Index n) {
+    count = n;
+    place.resize(n), normal.resize(n), back.resize(n), velocity.resize(n), pressure.resize(n), id.resize(n);
+  }
+};
+
+struct FluidView {
+  Index count = 0;
+  Span<const Quad> place, motion, state;
+  Span<const Real> pressure;
+  Span<const std::uint8_t> fluid;
+};
+
+struct WallView {
+  Index count = 0;
+  Span<const Quad> place, normal, back, velocity;
+  Span<const Real> pressure;
+};
+
+inline FluidView view(const FluidArrays& f) {
+  return {f.count, f.place.span(), f.motion.span(), f.state.span(), f.pressure.span(), f.fluid.span()};
+}
+
+inline WallView view(const WallArrays& w) {
+  return {w.count, w.place.span(), w.normal.span(), w.back.span(), w.velocity.span(), w.pressure.span()};
+}
+
+}  // namespace slagflow

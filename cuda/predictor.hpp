@@ -1,0 +1,28 @@
+// Second sweep over the pairs: pressure and gravity predictor, equation (6), and the coefficients of the
+// implicit viscous step, which need the same distances.
+#pragma once
+
+#include "density.hpp"
+#include "linear_system.hpp"
+
+namespace slagflow {
+
+// What the sweep writes, one entry per fluid particle; links per pair.
+struct PredictorOutput {
+  Span<Quad> predicted;        // xyz: u* [m/s]
+  Span<Index> length;          // links of each row
+  Span<Link> link;             // laid out as the fluid list
+  Span<Quad> diagonal;         // xyz: diagonal of A, w: mass [kg]
+  Span<Symmetric3> wall;       // wall block B [kg]
+  Span<Quad> right_hand_side;  // xyz: m u* + wall part [kg m/s]
+};
+
+//   u*_i = v_i + dt (g - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij) F_ij x_ij)
+//   pairing_ij = eps [(W(r)/W(dx))^4 - 1]_+ (|p_i|/rho_i^2 + |p_j|/rho_j^2)
+// and, with w_ij = C 2(d+2) eta_ij V_i V_j |F_ij| / r^2 (J. J. Monaghan's radial viscous term in the form of
+// M. Weiler et al., Comput. Graph. Forum 37 (2018) 135) and the harmonic mean eta_ij,
+//   s_ij = sqrt(theta dt w_ij) x_ij.
+// Wall pairs weigh more by the no-slip factor and go into the block B_i. Needs theta > 0.
+void predict_and_assemble(Context&, const PairContext&, const PredictorOutput&, Real dt, Real theta);
+
+}  // namespace slagflow

@@ -1,0 +1,106 @@
+// Everything a simulation starts from, in plain host data: what the host layer fills in and hands over.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "math.hpp"
+#include "models.hpp"
+
+namespace slagflow {
+
+struct FluidSetup {
+  std::string name;
+  double rest_density = 0;  // [kg/m^3]
+  Rheology rheology;
+};
+
+// One entry per fluid particle in each array.
+struct FluidParticles {
+  std::vector<Vec3d> position;      // [m]
+  std::vector<Vec3d> velocity;      // [m/s]
+  std::vector<double> pressure;     // [Pa], sets the initial density through the equation of state
+  std::vector<std::uint8_t> fluid;  // index into SimulationSetup::fluids
+};
+
+// Wall ('dummy') particles behind the surface. One entry per wall particle in each array.
+struct WallParticles {
+  std::vector<Vec3d> position;     // [m]
+  std::vector<Vec3d> normal;       // unit vector from the wall into the open
+  std::vector<double> depth;       // [m] > 0, distance below the surface along the normal
+  std::vector<std::uint8_t> body;  // index into SimulationSetup::bodies
+  // In a plate thinner than its particle layers: the opposite face. Depth 0: none. May be left empty.
+  std::vector<Vec3d> back_normal;
+  std::vector<double> back_depth;  // [m]
+};
+
+enum class WallSlip { no_slip, free_slip };
+
+struct WallBody {
+  std::string name;
+  WallSlip slip = WallSlip::no_slip;
+};
+
+enum class Departure { remove, stop };  // what happens to a particle that leaves through a face
+
+struct DomainSetup {
+  Vec3d lower, upper;  // [m]
+  std::array<bool, 3> periodic{false, false, false};
+  Departure departure = Departure::remove;
+};
+
+enum class ViscousSolver { conjugate_gradient, sor, jacobi };
+
+struct NumericsSetup {
+  double sound_speed = 0;              // [m/s]
+  double courant = 0.5;                // dt <= courant (h/2) / sound_speed
+  double max_time_step = 0;            // [s], 0: no further limit
+  double density_diffusion = 0.1;      // delta of Fourtakas et al. 2019
+  double tension_limit = 0;            // [Pa] >= 0, pressure is cut off at -tension_limit
+  double anti_pairing = 0.1;           // epsilon of the term that keeps pairs apart
+  double viscosity_correction = 1.05;  // takes out the operator's lattice bias
+  double theta = 1;                    // 1 backward Euler, 0.5 Crank-Nicolson
+  double skin = 0.12;                  // of the neighbour list, in support radii
+  ViscousSolver solver = ViscousSolver::conjugate_gradient;
+  double tolerance = 1e-2;  // rms velocity error of the solve, in gravity kicks g dt
+  int max_iterations = 200;
+  double relaxation = 1.2;  // omega of SOR
+};
+
+// When a run stops because its state cannot be true any more.
+struct LimitSetup {
+  int interval = 10;                  // steps between looks
+  double max_speed = 0;               // [m/s], 0: three times the sound speed
+  double max_compression = 0.1;       // (rho - rho0)/rho0
+  double max_lost_fraction = 1;       // of the particles, through all faces of the domain
+  double min_time_step_ratio = 1e-3;  // of the acoustic time step
+  double max_energy_growth = 0.05;    // of kinetic and dissipated energy and the weight of one spacing
+};
+
+// A count of the fluid beyond a plane: how much has passed, where its front is.
+// value = axis component of position, sign +1: beyond means larger, -1: smaller.
+struct FrontSetup {
+  int axis = 2;
+  int sign = -1;
+  double position = 0;  // [m]
+};
+
+struct SimulationSetup {
+  int dimensions = 3;          // 2: a single layer in the x-z plane, y is ignored
+  double spacing = 0;          // [m]
+  double support_ratio = 2.6;  // support radius / spacing
+  Vec3d gravity{0, 0, -9.81};  // [m/s^2]
+  Vec3d body_acceleration{};   // [m/s^2], added to gravity but without hydrostatic pressure
+  std::vector<FluidSetup> fluids;
+  FluidParticles particles;
+  WallParticles walls;
+  std::vector<WallBody> bodies;
+  DomainSetup domain;
+  NumericsSetup numerics;
+  LimitSetup limits;
+  std::vector<FrontSetup> fronts;
+};
+
+}  // namespace slagflow

@@ -1,0 +1,266 @@
+#include <sstream>
+
+#include "advance.hpp"
+#include "backend/error.hpp"
+#include "simulation_state.hpp"
+#include "walls/wall_pressure.hpp"
+
+namespace slagflow {
+
+namespace {
+
+Vec3d extent(const SimulationSetup& s) { return s.domain.upper - s.domain.lower; }
+
+ListReach list_reach(const SimulationSetup& s) {
+  const double h = s.support_ratio * s.spacing;
+  // Fluid slides along walls faster than along itself; wall rows are short, so a thicker skin costs little.
+  constexpr double wall_skins = 2.5;
+  const double skin = s.numerics.skin * h;
+  return {h, skin, wall_skins * skin, h + skin};
+}
+
+CellGrid cover_domain(const SimulationSetup& s) {
+  // A shorter period would let a pair meet twice, through two images.
+  const double least = 2 * (list_reach(s).support + list_reach(s).wall_skin);
+  for (int k = 0; k < 3; ++k)
+    if (s.domain.periodic[static_cast<std::size_t>(k)] && extent(s)[k] < least)
+      throw InputError("domain: the extent along periodic axis " + std::string(1, "xyz"[k]) + " is " +
+                       std::to_string(extent(s)[k]) + " m; allowed: at least " + std::to_string(least) +
+                       " m, twice the reach of the neighbour list");
+  return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
+}
+
+}  // namespace
+
+Simulation::State::State(const SimulationSetup& s)
+    : setup((validate(s), s)),
+      flow(flow_constants(s)),
+      box(periodic_box(s)),
+      reach(list_reach(s)),
+      fluids(context, "fluid constants"),
+      fluid(context),
+      wall(context),
+      ordering(context, extent(s), s.domain.periodic, cover_domain(s)),
+      fluid_list(context, "fluid neighbours"),
+      wall_list(context, "wall neighbours"),
+      wall_to_fluid(context, "fluid neighbours of walls"),
+      list_age(context),
+      list_places(context, "places of the list"),
+      scratch(context, "scratch"),
+      viscous(context, s.numerics),
+      diagnostics(context),
+      watch(context, s, static_cast<std::int64_t>(s.particles.position.size())) {
+  departed.resize(s.fluids.size());
+  upload();
+  dt = acoustic_time_step(setup);
+  rebuild();
+  extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
+}
+
+// Copies the particles to the device; only the numbers that go on are kept on the host.
+void Simulation::State::upload() {
+  const auto& p = setup.particles;
+  const std::size_t n = p.position.size();
+  const auto constants = fluid_constants(setup);
+  const double c2 = setup.numerics.sound_speed * setup.numerics.sound_speed;
+  std::vector<Vec3d> position(n);
+  std::vector<Quad> place(n), motion(n);
+  std::vector<Index> id(n);
+  std::vector<std::int64_t> start_by_fluid(setup.fluids.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& f = constants[p.fluid[i]];
+    const auto excess = static_cast<Real>(p.pressure[i] / c2);
+    position[i] = p.position[i] - setup.domain.lower;
+    place[i] = quad(to_real(position[i]), f.mass / (f.rest_density + excess));
+    motion[i] = quad(to_real(p.velocity[i]), excess);
+    id[i] = static_cast<Index>(i);
+    ++start_by_fluid[p.fluid[i]];
+  }
+  for (std::size_t kind = 0; kind < start_by_fluid.size(); ++kind)
+    start_mass += static_cast<double>(start_by_fluid[kind]) * particle_mass(setup, kind);
+  fluids.upload(constants);
+  fluid.resize(static_cast<Index>(n));
+  fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
+      fluid.id.upload(id);
+  fluid.fluid.upload(p.fluid);
+  fluid.increment.upload(std::vector<Quad>(n));
+  fluid.state.upload(std::vector<Quad>(n));
+  fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
+  fluid.shear_rate.upload(std::vector<Real>(n));
+
+  const auto& w = setup.walls;
+  const std::size_t m = w.position.size();
+  std::vector<Quad> wall_place(m), normal(m), back(m), velocity(m);
+  std::vector<Index> wall_id(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    wall_place[i] = quad(to_real(w.position[i] - setup.domain.lower), 0);
+    normal[i] = quad(to_real(w.normal[i]), static_cast<Real>(w.depth[i]));
+    if (!w.back_depth.empty()) back[i] = quad(to_real(w.back_normal[i]), static_cast<Real>(w.back_depth[i]));
+    velocity[i] = quad({}, setup.bodies[w.body[i]].slip == WallSlip::no_slip ? Real(1) : Real(0));
+    wall_id[i] = static_cast<Index>(i);
+  }
+  wall.resize(static_cast<Index>(m));
+  wall.place.upload(wall_place), wall.normal.upload(normal), wall.back.upload(back),
+      wall.velocity.upload(velocity), wall.id.upload(wall_id);
+  wall.pressure.upload(std::vector<Real>(m));
+  ordering.sort(wall);
+  setup.particles = {};
+}
+
+void Simulation::State::rebuild() {
+  Section timer(context, "neighbours");
+  ordering.sort(fluid, departed);
+  check_departure();
+  build_lists();
+  list_places.copy_from(fluid.place);
+  displacement = 0;
+  ++builds;
+}
+
+void Simulation::State::build_lists() {
+  const auto fluid_reach = static_cast<Real>(reach.support + reach.fluid_skin);
+  const auto wall_reach = static_cast<Real>(reach.support + reach.wall_skin);
+  const auto sources = ordering.fluid_sources(fluid);
+  fluid_list.build(sources, fluid.place.span(), box, fluid_reach, NeighbourList::Pairs::self);
+  wall_list.build(ordering.wall_sources(wall), fluid.place.span(), box, wall_reach,
+                  NeighbourList::Pairs::other);
+  wall_to_fluid.build(sources, wall.place.span(), box, wall_reach, NeighbourList::Pairs::other);
+}
+
+// The lists as they were: from the places at which they were built, in the order that the particles still
+// have.
+void Simulation::State::rebuild_lists_as_saved() {
+  fluid.place.swap(list_places);
+  ordering.find_cells(fluid);
+  build_lists();
+  fluid.place.swap(list_places);
+}
+
+void Simulation::State::check_departure() const {
+  if (setup.domain.departure != Departure::stop) return;
+  for (const auto& by_face : departed)
+    for (int face = 0; face < faces; ++face)
+      if (by_face[static_cast<std::size_t>(face)] > 0)
+        throw Error("a particle left the domain through face " + std::string(face % 2 ? "+" : "-") +
+                    "xyz"[face / 2] + " at " + std::to_string(time) + " s, and domain.departure is \"stop\"");
+}
+
+bool Simulation::State::lists_hold() {
+  Section timer(context, "list age");
+  return list_age.lists_hold(ordering.fluid_sources(fluid), ordering.wall_sources(wall), list_places.span(),
+                             reach, displacement);
+}
+
+PairContext Simulation::State::pairs() const {
+  return {fluid_list.view(), wall_list.view(), view(fluid), view(wall), fluids.span(), flow, box};
+}
+
+// The velocity that gravity adds in a step, against which the error of the solve is measured. Without gravity
+// a ten-thousandth of the largest speed stands for it.
+double Simulation::State::kick() {
+  const double g = norm(setup.gravity + setup.body_acceleration);
+  return g > 0 ? g * dt : 1e-4 * largest_speed(context, fluid, scratch);
+}
+
+void Simulation::State::solve() {
+  double lightest = 1e300;
+  for (const auto& f : fluid_constants(setup)) lightest = smaller(lightest, static_cast<double>(f.mass));
+  const auto sources = ordering.fluid_sources(fluid);
+  const SolveResult result = viscous.advance(pairs(), {sources.grid, sources.cell_start},
+                                             {dt, kick(), lightest}, fluid_list.capacity(), fluid);
+  report.iterations = result.iterations;
+  report.residual = result.right_hand_side > 0 ? result.residual / result.right_hand_side : 0;
+  report.velocity_error = result.residual / (lightest * std::sqrt(static_cast<double>(fluid.count)));
+  report.converged = result.converged;
+  solver.steps += 1;
+  solver.iterations += result.iterations;
+  solver.max_iterations = larger(solver.max_iterations, result.iterations);
+  solver.worst_residual = larger(solver.worst_residual, report.residual);
+  if (!std::isfinite(result.residual)) check_finite();
+  if (!result.converged) {
+    std::ostringstream message;
+    message << "the viscous solve did not converge in step " << steps + 1 << " at " << time << " s: residual "
+            << report.residual << " after " << result.iterations
+            << " iterations; try more numerics.max_iterations, solver \"conjugate_gradient\" or a smaller "
+               "courant";
+    throw Error(message.str());
+  }
+}
+
+void Simulation::State::look() {
+  Section timer(context, "watch");
+  std::int64_t left = 0;
+  for (const auto& by_face : departed)
+    for (const std::int64_t count : by_face) left += count;
+  watch.look(fluid, fluids.span(), {time, dt, dissipated, steps, left}, diagnostics);
+}
+
+// Names the first particle that is not a number: by its motion, or else by its density, which follows within
+// a step.
+void Simulation::State::check_finite() {
+  std::vector<Vec3d> position;
+  std::vector<Quad> motion;
+  std::vector<Index> id;
+  fluid.position.download(position), fluid.motion.download(motion), fluid.id.download(id);
+  std::ostringstream message;
+  message << "not a number in step " << steps + 1 << " at " << time << " s: ";
+  for (const bool motion_only : {true, false})
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      const Quad m = motion[i];
+      const Vec3d x = position[i] + setup.domain.lower;
+      if (std::isfinite(m.x + m.y + m.z) && std::isfinite(x.x + x.y + x.z) &&
+          (motion_only || std::isfinite(m.w)))
+        continue;
+      message << "particle " << id[i] << " at (" << x.x << ", " << x.y << ", " << x.z << ") m, velocity ("
+              << m.x << ", " << m.y << ", " << m.z << ") m/s, density excess " << m.w
+              << " kg/m^3; try a smaller courant or a larger sound_speed";
+      throw Error(message.str());
+    }
+  message << "in the viscous solve; try a smaller courant";
+  throw Error(message.str());
+}
+
+Simulation::Simulation(const SimulationSetup& setup) : state_(std::make_unique<State>(setup)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+void Simulation::step() {
+  State& s = *state_;
+  if (!s.lists_hold()) {
+    s.rebuild();
+    // A particle may not cross a quarter of the support in one step.
+    const double speed = largest_speed(s.context, s.fluid, s.scratch);
+    s.dt = smaller(acoustic_time_step(s.setup),
+                   0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
+  }
+  if (s.fluid.count > 0) {
+    {
+      Section timer(s.context, "density and shear rate");
+      update_density(s.context, s.pairs(), s.fluid, s.scratch, static_cast<Real>(s.dt));
+    }
+    {
+      Section timer(s.context, "wall pressure");
+      extrapolate_wall_pressure(s.context, s.pairs(), s.wall_to_fluid.view(), s.wall);
+    }
+    s.solve();
+    s.dissipated += s.dt * dissipation(s.context, s.fluid, s.diagnostics);
+    Section timer(s.context, "advance");
+    s.displacement =
+        advance_particles(s.context, s.fluid, s.viscous.velocity(), s.list_places, s.scratch, s.dt);
+    if (!std::isfinite(s.displacement)) s.check_finite();
+  }
+  s.time += s.dt;
+  ++s.steps;
+  if (s.steps % s.setup.limits.interval == 0) s.look();
+}
+
+double Simulation::time() const { return state_->time; }
+double Simulation::time_step() const { return state_->dt; }
+std::int64_t Simulation::steps() const { return state_->steps; }
+SolveReport Simulation::last_solve() const { return state_->report; }
+SolverTotals Simulation::solver_totals() const { return state_->solver; }
+std::int64_t Simulation::list_builds() const { return state_->builds; }
+std::size_t Simulation::device_bytes() const { return state_->context.allocated(); }
+std::map<std::string, double> Simulation::timings() const { return state_->context.timings(); }
+
+}  // namespace slagflow

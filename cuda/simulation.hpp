@@ -1,0 +1,109 @@
+// The simulation: owns all particle data on the device and advances it step by step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "backend/device.hpp"
+#include "saved_state.hpp"
+#include "setup.hpp"
+
+namespace slagflow {
+
+// Host copies of the state, in order of particle id. Vectors are reused between calls.
+struct FluidSnapshot {
+  double time = 0;                       // [s]
+  std::vector<Vec3d> position;           // [m]
+  std::vector<Vector3<float>> velocity;  // [m/s]
+  std::vector<float> pressure;           // [Pa]
+  std::vector<float> density;            // [kg/m^3]
+  std::vector<float> viscosity;          // [Pa s]
+  std::vector<float> shear_rate;         // [1/s]
+  std::vector<std::uint8_t> yielded;     // 1 where the stress exceeds the yield stress
+  std::vector<std::uint8_t> fluid;       // index of the fluid
+  std::vector<std::int64_t> id;          // constant through the run
+};
+
+struct WallSnapshot {
+  double time = 0;
+  std::vector<Vec3d> position;     // [m]
+  std::vector<float> pressure;     // [Pa]
+  std::vector<std::uint8_t> body;  // index of the body
+};
+
+struct FrontState {
+  std::int64_t passed = 0;  // particles beyond the plane, those that left through a face beyond it included
+  Vec3d mean_position;      // [m] of those beyond it that are still in the domain
+  double extreme = 0;       // [m] leading coordinate along the axis
+};
+
+struct Totals {
+  std::int64_t particles = 0;              // fluid particles in the domain
+  std::array<std::int64_t, 6> departed{};  // through -x +x -y +y -z +z
+  double mass_start = 0;                   // [kg] at the start
+  double mass_in = 0;                      // [kg] in the domain
+  double mass_left = 0;                    // [kg] departed
+  double max_speed = 0;                    // [m/s]
+  double kinetic_energy = 0;               // [J]
+  double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
+  double dissipated_energy = 0;            // [J], by viscosity since the start
+  double max_density_error = 0;    // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
+  double min_density_ratio = 1;    // smallest rho/rho0
+  Vec3d momentum;                  // [kg m/s]
+  Vec3d angular_momentum;          // [kg m^2/s] about the origin
+  std::vector<FrontState> fronts;  // one per SimulationSetup::fronts
+};
+
+struct SolveReport {
+  int iterations = 0;
+  double residual = 0;        // ||b - A u|| / ||b||, of the true residual
+  double velocity_error = 0;  // bound of the rms velocity error [m/s]: ||r|| / (m sqrt(N))
+  bool converged = true;
+};
+
+struct SolverTotals {
+  std::int64_t steps = 0, iterations = 0;
+  int max_iterations = 0;
+  double worst_residual = 0;
+  std::int64_t unconverged = 0;  // steps that ended at the iteration limit
+};
+
+class Simulation {
+ public:
+  // Copies the setup to the device. Throws Error on impossible input or lack of memory.
+  explicit Simulation(const SimulationSetup& setup);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  // Advances by one time step. Throws Error when the state cannot go on (not-a-number, unconverged solve).
+  void step();
+
+  double time() const;       // [s]
+  double time_step() const;  // [s] of the last step; of the coming one before the first
+  std::int64_t steps() const;
+  Totals totals();
+  SolveReport last_solve() const;
+  SolverTotals solver_totals() const;
+  double neighbours_mean() const;  // fluid and wall particles within the support radius, itself not counted
+  std::int64_t list_builds() const;
+  std::size_t device_bytes() const;               // memory held on the device
+  std::map<std::string, double> timings() const;  // [s] by part of the step
+
+  // The whole state, and back: a simulation made from the same setup and restored goes on to the same bits.
+  // Throws Error when the state does not belong to the setup or to this build's precision.
+  SavedState save() const;
+  void restore(const SavedState&);
+
+  void read(FluidSnapshot& out);
+  void read(WallSnapshot& out);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace slagflow

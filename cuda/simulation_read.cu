@@ -1,0 +1,104 @@
+// What a simulation tells: totals and host copies of its state.
+#include <algorithm>
+
+#include "backend/launch.hpp"
+#include "simulation_state.hpp"
+
+namespace slagflow {
+
+namespace {
+
+struct FlagYielded {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> fluid;
+  Span<const Real> shear_rate;
+  Span<std::uint8_t> result;
+  HOST_DEVICE void operator()(Index i) const {
+    result[i] = yielded(fluids[fluid[i]].rheology, shear_rate[i]) ? 1 : 0;
+  }
+};
+
+template <class T>
+std::vector<T> on_host(const Buffer<T>& buffer) {
+  std::vector<T> result;
+  buffer.download(result);
+  return result;
+}
+
+}  // namespace
+
+double Simulation::neighbours_mean() const {
+  State& s = *state_;
+  return mean_neighbours(s.context, s.pairs(), s.diagnostics);
+}
+
+Totals Simulation::totals() {
+  State& s = *state_;
+  Totals t;
+  t.particles = s.fluid.count;
+  t.mass_start = s.start_mass;
+  t.dissipated_energy = s.dissipated;
+  for (std::size_t kind = 0; kind < s.departed.size(); ++kind)
+    for (std::size_t face = 0; face < faces; ++face) {
+      t.departed[face] += s.departed[kind][face];
+      t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
+    }
+  measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics, t);
+  // What left through the face beyond a front's plane has passed it.
+  for (std::size_t k = 0; k < t.fronts.size(); ++k) {
+    const FrontSetup& front = s.setup.fronts[k];
+    t.fronts[k].passed += t.departed[static_cast<std::size_t>(2 * front.axis + (front.sign > 0 ? 1 : 0))];
+  }
+  return t;
+}
+
+void Simulation::read(FluidSnapshot& out) {
+  State& s = *state_;
+  const auto n = static_cast<std::size_t>(s.fluid.count);
+  Buffer<std::uint8_t> flags(s.context, "yielded", s.fluid.count);
+  launch(s.context, "yielded", s.fluid.count,
+         FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.fluid.shear_rate.span(), flags.span()});
+  const auto position = on_host(s.fluid.position);
+  const auto motion = on_host(s.fluid.motion);
+  const auto state = on_host(s.fluid.state);
+  const auto pressure = on_host(s.fluid.pressure), shear_rate = on_host(s.fluid.shear_rate);
+  const auto id = on_host(s.fluid.id);
+  const auto fluid = on_host(s.fluid.fluid), is_yielded = on_host(flags);
+
+  std::vector<std::size_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+
+  out.time = s.time;
+  out.position.resize(n), out.velocity.resize(n), out.pressure.resize(n), out.density.resize(n);
+  out.viscosity.resize(n), out.shear_rate.resize(n), out.yielded.resize(n), out.fluid.resize(n),
+      out.id.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t i = order[k];
+    out.position[k] = position[i] + s.setup.domain.lower;
+    out.velocity[k] = {static_cast<float>(motion[i].x), static_cast<float>(motion[i].y),
+                       static_cast<float>(motion[i].z)};
+    out.pressure[k] = static_cast<float>(pressure[i]);
+    out.density[k] =
+        static_cast<float>(s.setup.fluids[fluid[i]].rest_density + static_cast<double>(motion[i].w));
+    out.viscosity[k] = static_cast<float>(state[i].y);
+    out.shear_rate[k] = static_cast<float>(shear_rate[i]);
+    out.yielded[k] = is_yielded[i];
+    out.fluid[k] = fluid[i];
+    out.id[k] = id[i];
+  }
+}
+
+void Simulation::read(WallSnapshot& out) {
+  State& s = *state_;
+  const auto id = on_host(s.wall.id);
+  const auto pressure = on_host(s.wall.pressure);
+  out.time = s.time;
+  out.position = s.setup.walls.position;
+  out.body = s.setup.walls.body;
+  out.pressure.resize(id.size());
+  for (std::size_t i = 0; i < id.size(); ++i)
+    out.pressure[static_cast<std::size_t>(id[i])] = static_cast<float>(pressure[i]);
+}
+
+}  // namespace slagflow

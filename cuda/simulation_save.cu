@@ -1,0 +1,125 @@
+// Saves and restores a simulation to the bit.
+#include <cstring>
+
+#include "backend/error.hpp"
+#include "simulation_state.hpp"
+
+namespace slagflow {
+
+namespace {
+
+// Numbers that are not particle arrays.
+struct SavedNumbers {
+  double time, dt, displacement, dissipated;
+  std::int64_t steps, builds;
+  std::int64_t solver_steps, solver_iterations, solver_unconverged;
+  double worst_residual, residual, velocity_error, lowest_energy;
+  std::int64_t watched_departures;
+  std::int32_t max_iterations, iterations, converged, real_size;
+};
+
+// One pass over the arrays serves both ways, so that they cannot differ.
+class Saver {
+ public:
+  explicit Saver(SavedState& state) : state_(state) {}
+
+  template <class T>
+  void array(const char* name, Buffer<T>& buffer) {
+    std::vector<T> host;
+    buffer.download(host);
+    values(name, host);
+  }
+  template <class T>
+  void values(const char* name, std::vector<T>& host) {
+    SavedArray saved{name, sizeof(T), std::vector<std::byte>(host.size() * sizeof(T))};
+    if (!host.empty()) std::memcpy(saved.bytes.data(), host.data(), saved.bytes.size());
+    state_.push_back(std::move(saved));
+  }
+
+ private:
+  SavedState& state_;
+};
+
+class Restorer {
+ public:
+  explicit Restorer(const SavedState& state) : state_(state) {}
+
+  template <class T>
+  void array(const char* name, Buffer<T>& buffer) {
+    std::vector<T> host;
+    values(name, host);
+    buffer.upload(host);
+  }
+  template <class T>
+  void values(const char* name, std::vector<T>& host) {
+    for (const SavedArray& saved : state_) {
+      if (saved.name != name) continue;
+      if (saved.element_size != sizeof(T) || saved.bytes.size() % sizeof(T) != 0)
+        throw Error("checkpoint: array '" + saved.name + "' has elements of " +
+                    std::to_string(saved.element_size) + " bytes, this build has " +
+                    std::to_string(sizeof(T)));
+      host.resize(saved.bytes.size() / sizeof(T));
+      if (!host.empty()) std::memcpy(host.data(), saved.bytes.data(), saved.bytes.size());
+      return;
+    }
+    throw Error("checkpoint: array '" + std::string(name) + "' is missing");
+  }
+
+ private:
+  const SavedState& state_;
+};
+
+template <class Visitor>
+void visit_arrays(Visitor& v, FluidArrays& f, WallArrays& w, Buffer<Quad>& list_places,
+                  DepartureCounts& departed) {
+  v.array("position", f.position), v.array("place", f.place), v.array("motion", f.motion);
+  v.array("increment", f.increment), v.array("id", f.id), v.array("fluid", f.fluid);
+  v.array("state", f.state), v.array("pressure", f.pressure), v.array("shear_rate", f.shear_rate);
+  v.array("wall_pressure", w.pressure), v.array("list_places", list_places);
+  v.values("departed", departed);
+}
+
+}  // namespace
+
+SavedState Simulation::save() const {
+  State& s = *state_;
+  SavedState result;
+  Saver saver(result);
+  visit_arrays(saver, s.fluid, s.wall, s.list_places, s.departed);
+  std::vector<SavedNumbers> numbers{
+      {s.time, s.dt, s.displacement, s.dissipated, s.steps, s.builds, s.solver.steps, s.solver.iterations,
+       s.solver.unconverged, s.solver.worst_residual, s.report.residual, s.report.velocity_error,
+       s.watch.memory.lowest_energy, s.watch.memory.departed, s.solver.max_iterations, s.report.iterations,
+       s.report.converged ? 1 : 0, static_cast<std::int32_t>(sizeof(Real))}};
+  saver.values("numbers", numbers);
+  return result;
+}
+
+void Simulation::restore(const SavedState& saved) {
+  State& s = *state_;
+  std::vector<SavedNumbers> numbers;
+  Restorer restorer(saved);
+  restorer.values("numbers", numbers);
+  if (numbers.size() != 1 || numbers[0].real_size != static_cast<std::int32_t>(sizeof(Real)))
+    throw Error("checkpoint: it was written by a build of another precision");
+  const std::size_t kinds = s.departed.size();
+  const Offset walls = s.wall.pressure.size();
+  visit_arrays(restorer, s.fluid, s.wall, s.list_places, s.departed);
+  const Offset n = s.fluid.id.size();
+  const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
+                    s.fluid.increment.size() == n && s.fluid.fluid.size() == n && s.fluid.state.size() == n &&
+                    s.fluid.pressure.size() == n && s.fluid.shear_rate.size() == n &&
+                    s.list_places.size() == n && s.wall.pressure.size() == walls &&
+                    s.departed.size() == kinds;
+  if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
+  s.fluid.count = static_cast<Index>(n);
+  const SavedNumbers& v = numbers[0];
+  s.time = v.time, s.dt = v.dt, s.displacement = v.displacement, s.dissipated = v.dissipated;
+  s.steps = v.steps, s.builds = v.builds;
+  s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_unconverged};
+  s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
+  s.watch.memory = {v.lowest_energy, v.watched_departures};
+  s.rebuild_lists_as_saved();
+}
+
+}  // namespace slagflow

@@ -1,0 +1,56 @@
+// What a simulation holds; shared by the sources that step it and read it.
+#pragma once
+
+#include "constants.hpp"
+#include "density.hpp"
+#include "diagnostics.hpp"
+#include "list_age.hpp"
+#include "neighbours.hpp"
+#include "ordering.hpp"
+#include "simulation.hpp"
+#include "viscous.hpp"
+#include "watch.hpp"
+
+namespace slagflow {
+
+struct Simulation::State {
+  explicit State(const SimulationSetup& s);
+
+  SimulationSetup setup;
+  Context context;
+  FlowConstants flow;
+  PeriodicBox box;
+  ListReach reach;
+  Buffer<FluidConstants> fluids;
+  FluidArrays fluid;
+  WallArrays wall;
+  Ordering ordering;
+  NeighbourList fluid_list, wall_list, wall_to_fluid;
+  ListAge list_age;
+  Buffer<Quad> list_places;  // of the fluid when the lists were built
+  Buffer<Real> scratch;
+  ViscousStep viscous;
+  DiagnosticScratch diagnostics;
+  Watch watch;
+
+  double time = 0, dt = 0, displacement = 0, dissipated = 0;
+  std::int64_t steps = 0, builds = 0;
+  double start_mass = 0;
+  DepartureCounts departed;
+  SolveReport report;
+  SolverTotals solver;
+
+  void upload();
+  void rebuild();
+  void build_lists();
+  void rebuild_lists_as_saved();
+  bool lists_hold();
+  PairContext pairs() const;
+  double kick();
+  void solve();
+  void look();
+  void check_finite();
+  void check_departure() const;
+};
+
+}  // namespace slagflow

@@ -1,0 +1,156 @@
+#include <limits>
+
+#include "backend/launch.hpp"
+#include "backend/primitives.hpp"
+#include "solvers/residual.hpp"
+#include "viscous.hpp"
+
+namespace slagflow {
+
+namespace {
+
+// The unknown is what viscosity adds, delta = u^{k+1} - u*, not u^{k+1} itself: in a stiff plug that moves
+// fast the rounding of u alone would leave a residual far above the tolerance. Turns the right hand side b
+// into b - A u* and starts from the last delta, as the pressure gradient and gravity that it balanced then it
+// balances now.
+struct StartFromPredicted {
+  LinearSystem system;
+  Span<const Quad> predicted, increment;
+  Span<Quad> right_hand_side, residual;
+  Span<double> squared;
+  HOST_DEVICE void operator()(Index i) const {
+    const Vec3 b = xyz(right_hand_side[i]) - system.apply(i, predicted);
+    const Vec3 r = b - system.apply(i, increment);
+    right_hand_side[i] = quad(b, 0);
+    residual[i] = quad(r, 0);
+    squared[i] = dot(to_double(r), to_double(r));
+  }
+};
+
+struct AddIncrement {
+  Span<const Quad> predicted, increment;
+  Span<Quad> velocity;
+  HOST_DEVICE void operator()(Index i) const { velocity[i] = quad(xyz(predicted[i]) + xyz(increment[i]), 0); }
+};
+
+// |v_i|^2, or |D_i v_i|^2 with the diagonal D.
+struct SquaredLength {
+  Span<const Quad> v, diagonal;
+  Span<double> squared;
+  HOST_DEVICE void operator()(Index i) const {
+    Vec3d value = to_double(xyz(v[i]));
+    if (diagonal.data) {
+      const Vec3d d = to_double(xyz(diagonal[i]));
+      value = {d.x * value.x, d.y * value.y, d.z * value.z};
+    }
+    squared[i] = dot(value, value);
+  }
+};
+
+// b -= (1 - theta)/theta [theta dt K v^k - wall part], with the matrix at hand: theta dt K v = A v - m v.
+struct ExplicitHalf {
+  LinearSystem system;
+  Span<const Quad> predicted, old_velocity;
+  Real ratio;
+  Span<Quad> right_hand_side;
+  HOST_DEVICE void operator()(Index i) const {
+    const Real mass = system.diagonal[i].w;
+    const Vec3 drag = xyz(right_hand_side[i]) - mass * xyz(predicted[i]);
+    const Vec3 viscous = system.apply(i, old_velocity) - mass * xyz(old_velocity[i]) - drag;
+    right_hand_side[i] = quad(xyz(right_hand_side[i]) - ratio * viscous, 0);
+  }
+};
+
+}  // namespace
+
+ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
+    : context_(c),
+      numerics_(numerics),
+      predicted_(c, "predicted velocities"),
+      velocity_(c, "solved velocities"),
+      diagonal_(c, "matrix diagonal"),
+      right_hand_side_(c, "right hand side"),
+      wall_(c, "wall blocks"),
+      length_(c, "link counts"),
+      link_(c, "links"),
+      work_(c) {}
+
+void ViscousStep::resize(Index count, Offset pair_capacity) {
+  constexpr Offset margin_percent = 5;
+  predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
+  wall_.resize(count), length_.resize(count), link_.resize(pair_capacity, margin_percent);
+}
+
+LinearSystem ViscousStep::system(const PairContext& c) const {
+  return {c.fluid.count,    ListView::stride(), c.fluid_list.slice,
+          slice_width,      length_.span(),     link_.span(),
+          diagonal_.span(), wall_.span(),       right_hand_side_.span()};
+}
+
+SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
+                                 Offset pair_capacity, FluidArrays& fluid) {
+  const Index n = fluid.count;
+  resize(n, pair_capacity);
+  const auto theta = static_cast<Real>(numerics_.theta);
+  {
+    Section timer(context_, "predictor and assembly");
+    const PredictorOutput out{predicted_.span(), length_.span(), link_.span(),
+                              diagonal_.span(),  wall_.span(),   right_hand_side_.span()};
+    predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), theta);
+  }
+  Section timer(context_, "viscous solve");
+  const LinearSystem matrix = system(c);
+  if (theta < 1)
+    launch(context_, "explicit half", n,
+           ExplicitHalf{matrix, predicted_.span(), fluid.motion.span(), (1 - theta) / theta,
+                        right_hand_side_.span()});
+  SolveResult result = solve_for_increment(matrix, rows, step, fluid.increment);
+  launch(context_, "add increment", n,
+         AddIncrement{predicted_.span(), fluid.increment.span(), velocity_.span()});
+  return result;
+}
+
+SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const RowCells& rows,
+                                             const Step& step, Buffer<Quad>& increment) {
+  const Index n = matrix.size;
+  const double b = norm_of(right_hand_side_.span(), Weighted::no);
+  work_.residual.resize(n), work_.squared.resize(n);
+  launch(context_, "start", n,
+         StartFromPredicted{matrix, predicted_.span(), increment.span(), right_hand_side_.span(),
+                            work_.residual.span(), work_.squared.span()});
+  const double start = std::sqrt(sum(context_, work_.squared.span()));
+  // A >= m, so ||u - u_exact|| <= ||r|| / m: the residual bounds the rms velocity error. Rounding keeps it
+  // above about epsilon ||D delta||, D the diagonal of A, and a millionth of its start.
+  const double wanted = numerics_.tolerance * step.mass * step.kick * std::sqrt(static_cast<double>(n));
+  const double rounding = larger(static_cast<double>(std::numeric_limits<Real>::epsilon()) *
+                                     norm_of(increment.span(), Weighted::by_diagonal),
+                                 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * start);
+  SolveResult result =
+      solve(matrix, rows, {larger(wanted, rounding), numerics_.max_iterations, numerics_.relaxation, start},
+            increment);
+  result.right_hand_side = b;
+  return result;
+}
+
+double ViscousStep::norm_of(Span<const Quad> v, Weighted weighted) {
+  work_.squared.resize(v.size);
+  launch(context_, "norm", static_cast<Index>(v.size),
+         SquaredLength{v, weighted == Weighted::no ? Span<const Quad>{} : diagonal_.span(),
+                       work_.squared.span()});
+  return std::sqrt(sum(context_, work_.squared.span()));
+}
+
+SolveResult ViscousStep::solve(const LinearSystem& matrix, const RowCells& rows, const SolveLimits& limits,
+                               Buffer<Quad>& increment) {
+  switch (numerics_.solver) {
+    case ViscousSolver::jacobi:
+      return jacobi(context_, matrix, limits, increment, work_);
+    case ViscousSolver::sor:
+      return sor(context_, matrix, rows, limits, increment, work_);
+    case ViscousSolver::conjugate_gradient:
+      break;
+  }
+  return conjugate_gradient(context_, matrix, limits, increment, work_);
+}
+
+}  // namespace slagflow

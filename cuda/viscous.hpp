@@ -1,0 +1,42 @@
+// The implicit viscous step: owns the linear system and its solution.
+//   m u_i + theta dt K u = m u*_i - (1 - theta) dt K v^k,  K the radial pair operator (predictor.hpp)
+#pragma once
+
+#include "predictor.hpp"
+#include "setup.hpp"
+#include "solvers/solver.hpp"
+
+namespace slagflow {
+
+class ViscousStep {
+ public:
+  ViscousStep(Context&, const NumericsSetup&);
+
+  // Predictor, assembly and solve. `kick`: velocity scale of the stop test [m/s] (one gravity kick g dt, or
+  // what stands for it); `mass`: the smallest particle mass [kg].
+  // Returns with velocity() = u^{k+1}; fluid.increment is read as the first guess and set anew.
+  struct Step {
+    double dt, kick, mass;
+  };
+  SolveResult advance(const PairContext&, const RowCells&, const Step&, Offset pair_capacity, FluidArrays&);
+
+  Span<const Quad> velocity() const { return velocity_.span(); }
+
+ private:
+  enum class Weighted { no, by_diagonal };
+  double norm_of(Span<const Quad> v, Weighted);
+  LinearSystem system(const PairContext&) const;
+  SolveResult solve_for_increment(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
+  SolveResult solve(const LinearSystem&, const RowCells&, const SolveLimits&, Buffer<Quad>& increment);
+  void resize(Index count, Offset pair_capacity);
+
+  Context& context_;
+  NumericsSetup numerics_;
+  Buffer<Quad> predicted_, velocity_, diagonal_, right_hand_side_;
+  Buffer<Symmetric3> wall_;
+  Buffer<Index> length_;
+  Buffer<Link> link_;
+  SolverWorkspace work_;
+};
+
+}  // namespace slagflow

@@ -1,0 +1,104 @@
+#include <cmath>
+#include <sstream>
+
+#include "backend/error.hpp"
+#include "constants.hpp"
+#include "watch.hpp"
+
+namespace slagflow {
+
+namespace {
+
+std::string number(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+double speed_squared(Quad motion) { return static_cast<double>(dot(xyz(motion), xyz(motion))); }
+double density_excess(Quad motion) { return static_cast<double>(motion.w); }
+
+}  // namespace
+
+Watch::Watch(Context& context, const SimulationSetup& setup, std::int64_t particles)
+    : context_(context),
+      setup_(setup),
+      particles_(static_cast<double>(particles)),
+      mass_(particles_ * particle_mass(setup, 0)) {
+  if (setup_.limits.max_speed <= 0) setup_.limits.max_speed = 3 * setup_.numerics.sound_speed;
+}
+
+void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, const WatchMoment& now,
+                 DiagnosticScratch& scratch) {
+  const LimitSetup& limits = setup_.limits;
+  const double lost = static_cast<double>(now.departed) / larger(1.0, particles_);
+  if (lost > limits.max_lost_fraction)
+    fail(now,
+         "a fraction " + number(lost) +
+             " of the particles has left the domain; limits.max_lost_fraction is " +
+             number(limits.max_lost_fraction),
+         "a larger domain, or close its walls");
+  if (now.time_step < limits.min_time_step_ratio * acoustic_time_step(setup_))
+    fail(now, "the time step fell to " + number(now.time_step) + " s",
+         "a larger sound_speed or a smaller spacing");
+  if (fluid.count == 0) return;
+  const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
+  if (!(vitals.max_speed <= limits.max_speed))
+    fail_at_worst(fluid, now,
+                  "a speed of " + number(vitals.max_speed) + " m/s; limits.max_speed is " +
+                      number(limits.max_speed) + " m/s",
+                  speed_squared, "a smaller courant, a larger sound_speed, or thicker walls");
+  if (!(vitals.max_compression <= limits.max_compression))
+    fail_at_worst(fluid, now,
+                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
+                      "; limits.max_compression is " + number(limits.max_compression),
+                  density_excess, "a larger sound_speed or a smaller courant");
+  check_energy(vitals, now);
+}
+
+// Kinetic, stored and dissipated energy can only fall. The measure of what is a growth: kinetic and
+// dissipated energy themselves, and lifting all fluid by one spacing. Departures take energy with them, and
+// on a periodic axis along the force the potential has no single value.
+void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
+  const Vec3d force = setup_.gravity + setup_.body_acceleration;
+  for (int k = 0; k < 3; ++k)
+    if (setup_.domain.periodic[static_cast<std::size_t>(k)] && force[k] != 0) return;
+  const double energy = vitals.kinetic_energy + vitals.stored_energy + now.dissipated;
+  if (now.departed != memory.departed) memory = {energy, now.departed};
+  memory.lowest_energy = smaller(memory.lowest_energy, energy);
+  const double scale = vitals.kinetic_energy + now.dissipated + mass_ * norm(force) * setup_.spacing;
+  const double growth = (energy - memory.lowest_energy) / scale;
+  if (growth > setup_.limits.max_energy_growth)
+    fail(now,
+         "the energy grew by " + number(energy - memory.lowest_energy) +
+             " J without a source; limits.max_energy_growth is " + number(setup_.limits.max_energy_growth),
+         "a smaller courant");
+}
+
+void Watch::fail(const WatchMoment& now, const std::string& what, const std::string& advice) const {
+  throw Error("stopped in step " + std::to_string(now.step) + " at " + number(now.time) + " s: " + what +
+              "; try " + advice);
+}
+
+void Watch::fail_at_worst(const FluidArrays& fluid, const WatchMoment& now, const std::string& what,
+                          double (*badness)(Quad motion), const std::string& advice) const {
+  std::vector<Vec3d> position;
+  std::vector<Quad> motion;
+  std::vector<Index> id;
+  fluid.position.download(position), fluid.motion.download(motion), fluid.id.download(id);
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    const double b = badness(motion[i]);
+    if (!std::isfinite(b) || b > badness(motion[worst])) worst = i;
+    if (!std::isfinite(b)) break;
+  }
+  const Vec3d x = position[worst] + setup_.domain.lower;
+  const Quad m = motion[worst];
+  std::ostringstream where;
+  where << what << "; particle " << id[worst] << " at (" << x.x << ", " << x.y << ", " << x.z
+        << ") m, velocity (" << m.x << ", " << m.y << ", " << m.z << ") m/s, density excess " << m.w
+        << " kg/m^3";
+  fail(now, where.str(), advice);
+}
+
+}  // namespace slagflow

@@ -1,0 +1,136 @@
+// A case: everything a case file says, in SI units, with the defaults filled in.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "models.hpp"
+#include "setup.hpp"
+
+namespace slagflow {
+
+// One of +x -x +y -y +z -z.
+struct Direction {
+  int axis = 0;  // 0 x, 1 y, 2 z
+  int sign = 1;  // +1 or -1
+};
+
+struct BoxSpec {
+  Vec3d min, max;  // [m]
+};
+// The half-space on the side away from the normal.
+struct PlaneSpec {
+  Vec3d point;   // [m]
+  Vec3d normal;  // any length but 0
+};
+struct CylinderSpec {
+  Vec3d start, end;   // [m] ends of the axis
+  double radius = 0;  // [m]
+};
+struct SphereSpec {
+  Vec3d center;       // [m]
+  double radius = 0;  // [m]
+};
+struct StlSpec {
+  std::string file;  // absolute path
+  double scale = 1;  // [m] per unit of the file
+  Vec3d translate;   // [m], added after scaling
+};
+
+struct ShapeSpec {
+  std::variant<BoxSpec, PlaneSpec, CylinderSpec, SphereSpec, StlSpec> form;
+  bool outside = false;  // everything outside of the form: a container
+};
+
+struct FluidSpec {
+  std::string name;
+  double density = 0;  // [kg/m^3]
+  RheologyKind rheology = RheologyKind::newtonian;
+  std::array<double, 4> parameters{};  // in the order of RheologyInfo::parameters
+
+  const RheologyInfo& info() const { return rheologies[static_cast<std::size_t>(rheology)]; }
+};
+
+enum class InitialPressure { hydrostatic, zero };
+
+struct RegionSpec {
+  int fluid = 0;  // index into Case::fluids
+  std::vector<ShapeSpec> shapes, subtract;
+  Vec3d velocity;          // [m/s]
+  Vec3d angular_velocity;  // [rad/s], about center
+  Vec3d center;            // [m]
+  InitialPressure pressure = InitialPressure::hydrostatic;
+};
+
+struct WallSpec {
+  std::string name;
+  WallSlip slip = WallSlip::no_slip;
+  std::vector<ShapeSpec> shapes, subtract;
+};
+
+struct OutputSpec {
+  double end_time = 0;          // [s]
+  double interval = 0;          // [s] between snapshots
+  double history_interval = 0;  // [s] between lines of the history
+  bool walls = true;            // write the wall particles
+};
+
+enum class MeasureType { front, jet };
+
+struct MeasureSpec {
+  std::string name;
+  MeasureType type = MeasureType::front;
+  double fraction = 0.002;  // of all fluid particles that must have passed
+  Direction direction;      // front: the way it goes
+  double position = 0;      // [m] front: the line, along that axis
+  Vec3d lip;                // [m] jet: the dam's lip
+  Direction outward;        // jet: horizontal, away from the wall
+  double bottom = 0;        // [m] jet: coordinate along gravity's axis where the leading edge arrives
+};
+
+struct Case {
+  std::string file;  // the case file, as given
+  std::string name, description;
+
+  double spacing = 0;          // [m]
+  double support_ratio = 2.6;  // support radius / spacing
+  int dimensions = 3;
+  Vec3d origin;  // [m], lattice sites at origin + (i + 1/2) spacing
+
+  Vec3d gravity{0, 0, -9.81};  // [m/s^2]
+  Vec3d body_force;            // [m/s^2]
+  std::vector<FluidSpec> fluids;
+  std::vector<RegionSpec> regions;
+  std::vector<WallSpec> walls;
+  DomainSetup domain;
+  std::string kernel = "lucy";
+  NumericsSetup numerics;  // sound_speed 0: automatic, see BuiltCase::resolved
+  OutputSpec output;
+  std::vector<MeasureSpec> measures;
+
+  // Dotted key -> where it was given ("FILE:LINE" or "--set key=value"), for messages.
+  std::map<std::string, std::string> places;
+
+  // Where a key or, failing that, the table around it was given; the file if neither is known.
+  std::string place_of(const std::string& key) const;
+};
+
+// Axis and sign of the largest component of gravity.
+Direction down(const Case& c);
+
+// Reads and validates a case file. Each override is "dotted.key=value"; its value is TOML or else a bare
+// string, and list entries are addressed by their index, as in "region.0.velocity=[1,0,0]".
+// Throws InputError with one line for each thing that is wrong.
+Case load_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+// The same from text; `file` names it in messages, and STL files are looked for next to it.
+Case parse_case(const std::string& text, const std::string& file,
+                const std::vector<std::string>& overrides = {});
+
+// The case as a TOML file with every key, defaults included. Loading it gives the same case.
+std::string to_toml(const Case& c);
+
+}  // namespace slagflow

@@ -1,0 +1,98 @@
+// What concerns several tables of a case at once.
+#include <cmath>
+
+#include "host/case_sections.hpp"
+
+namespace slagflow {
+namespace {
+
+std::string axis_name(int axis) { return axis_names[static_cast<std::size_t>(axis)]; }
+
+// A periodic axis must carry whole lattice cells, and a particle must not meet its own image.
+void check_periodic(const Case& c, CaseProblems& problems) {
+  if (!problems.fine({"domain.min", "domain.max", "domain.periodic", "resolution.spacing"})) return;
+  const double support = c.support_ratio * c.spacing;
+  for (int k = 0; k < 3; ++k) {
+    if (!c.domain.periodic[static_cast<std::size_t>(k)]) continue;
+    const double extent = c.domain.upper[k] - c.domain.lower[k];
+    const double cells = extent / c.spacing;
+    const std::string what = "the extent " + show(extent) + " m along the periodic axis " + axis_name(k);
+    if (std::abs(cells - std::round(cells)) > 1e-6 * cells)
+      problems.add("domain.periodic", what + " is " + show(cells) +
+                                          " spacings: allowed: a whole number of spacings of " +
+                                          show(c.spacing) + " m");
+    else if (extent < 3 * support * (1 - 1e-9))
+      problems.add("domain.periodic",
+                   what + " is too short: allowed: >= 3 support radii = " + show(3 * support) + " m");
+  }
+}
+
+std::string measure_key(std::size_t index) { return "measure." + std::to_string(index); }
+
+void check_front(const Case& c, std::size_t index, CaseProblems& problems) {
+  const MeasureSpec& measure = c.measures[index];
+  const std::string key = measure_key(index);
+  const int axis = measure.direction.axis;
+  if (c.domain.periodic[static_cast<std::size_t>(axis)])
+    problems.add(key + ".direction", "runs along the periodic axis " + axis_name(axis) +
+                                         ": allowed: an axis that is not periodic");
+  else if (measure.position < c.domain.lower[axis] || measure.position > c.domain.upper[axis])
+    problems.add(key + ".position", "value " + show(measure.position) +
+                                        " is outside the domain: allowed: " + show(c.domain.lower[axis]) +
+                                        " to " + show(c.domain.upper[axis]) + " [m]");
+}
+
+void check_jet(const Case& c, std::size_t index, CaseProblems& problems) {
+  const MeasureSpec& measure = c.measures[index];
+  const std::string key = measure_key(index);
+  const auto [axis, sign] = down(c);
+  if (c.gravity[axis] == 0)
+    problems.add(key + ".type", "a jet needs gravity: allowed: gravity.acceleration other than 0");
+  else if (measure.outward.axis == axis)
+    problems.add(key + ".outward", "runs along gravity: allowed: a horizontal direction");
+  else if ((measure.bottom - measure.lip[axis]) * sign <= 0)
+    problems.add(key + ".bottom", "value " + show(measure.bottom) + " is not below the lip: allowed: " +
+                                      (sign < 0 ? "< " : "> ") + show(measure.lip[axis]) + " [m]");
+}
+
+void check_measures(const Case& c, CaseProblems& problems) {
+  for (std::size_t m = 0; m < c.measures.size(); ++m) {
+    const std::string key = measure_key(m);
+    if (!problems.fine({key + ".type", key + ".direction", key + ".position", key + ".lip", key + ".outward",
+                        key + ".bottom", "domain.min", "domain.max", "gravity.acceleration"}))
+      continue;
+    if (c.measures[m].type == MeasureType::front)
+      check_front(c, m, problems);
+    else
+      check_jet(c, m, problems);
+  }
+}
+
+void check_two_dimensions(const Case& c, CaseProblems& problems) {
+  if (c.dimensions != 2) return;
+  const auto no_y = [&](const std::string& key, double y) {
+    if (y != 0)
+      problems.add(key, "y component " + show(y) + " with two dimensions: allowed: 0, the plane is x-z");
+  };
+  no_y("gravity.acceleration", c.gravity.y);
+  no_y("body_force.acceleration", c.body_force.y);
+  if (c.domain.periodic[1]) problems.add("domain.periodic", "value \"y\" with two dimensions: allowed: x, z");
+  for (std::size_t r = 0; r < c.regions.size(); ++r) {
+    const std::string key = "region." + std::to_string(r);
+    no_y(key + ".velocity", c.regions[r].velocity.y);
+    const Vec3d& spin = c.regions[r].angular_velocity;
+    if (spin.x != 0 || spin.z != 0)
+      problems.add(key + ".angular_velocity",
+                   "turns out of the x-z plane with two dimensions: allowed: about y alone");
+  }
+}
+
+}  // namespace
+
+void check_across_tables(const Case& c, CaseProblems& problems) {
+  check_two_dimensions(c, problems);
+  check_periodic(c, problems);
+  check_measures(c, problems);
+}
+
+}  // namespace slagflow

@@ -1,0 +1,35 @@
+// The tables of a case file, one function each. Used by the parser alone.
+#pragma once
+
+#include <string>
+
+#include "host/case.hpp"
+#include "host/case_table.hpp"
+
+namespace slagflow {
+
+// What the keys of the file may say; shared with the writer.
+extern const std::vector<std::string> kernel_names, slip_names, pressure_names, departure_names, solver_names,
+    measure_names, direction_names, axis_names;
+Direction direction_of(int index);  // into direction_names
+int index_of(const Direction& direction);
+
+// Letters, digits, _ - . with a letter, digit or _ at the start: safe as a file name and a key.
+bool is_plain_name(const std::string& name);
+
+void read_frame(CaseTable& top, Case& c);     // [case] [resolution] [gravity] [body_force] [domain]
+void read_fluids(CaseTable& top, Case& c);    // [fluid.NAME]
+void read_regions(CaseTable& top, Case& c);   // [[region]]
+void read_walls(CaseTable& top, Case& c);     // [[wall]]
+void read_numerics(CaseTable& top, Case& c);  // [numerics]
+void read_output(CaseTable& top, Case& c);    // [output]
+void read_measures(CaseTable& top, Case& c);  // [[measure]]
+
+// A list of shapes; STL files are looked for next to the case file.
+bool read_shapes(CaseTable& parent, const char* key, Need need, const std::string& case_file,
+                 std::vector<ShapeSpec>& shapes);
+
+// What concerns several tables: periodic extents, measures against the domain, two dimensions.
+void check_across_tables(const Case& c, CaseProblems& problems);
+
+}  // namespace slagflow

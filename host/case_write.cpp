@@ -1,0 +1,142 @@
+// A case as a TOML file with every key.
+#include <cstdio>
+#include <sstream>
+
+#include "host/case_sections.hpp"
+
+namespace slagflow {
+namespace {
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (static_cast<unsigned char>(c) < ' ' || c == 127) {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\u%04X", static_cast<unsigned>(c));
+      result += escaped;
+    } else {
+      result += c;
+    }
+  }
+  return result + "\"";
+}
+
+std::string text_of(const Vec3d& v) { return "[" + show(v.x) + ", " + show(v.y) + ", " + show(v.z) + "]"; }
+std::string text_of(bool value) { return value ? "true" : "false"; }
+
+template <class E>
+std::string name_of(const std::vector<std::string>& names, E value) {
+  return quoted(names[static_cast<std::size_t>(value)]);
+}
+
+std::string form_text(const BoxSpec& s) {
+  return "shape = \"box\", min = " + text_of(s.min) + ", max = " + text_of(s.max);
+}
+std::string form_text(const PlaneSpec& s) {
+  return "shape = \"plane\", point = " + text_of(s.point) + ", normal = " + text_of(s.normal);
+}
+std::string form_text(const CylinderSpec& s) {
+  return "shape = \"cylinder\", start = " + text_of(s.start) + ", end = " + text_of(s.end) +
+         ", radius = " + show(s.radius);
+}
+std::string form_text(const SphereSpec& s) {
+  return "shape = \"sphere\", center = " + text_of(s.center) + ", radius = " + show(s.radius);
+}
+std::string form_text(const StlSpec& s) {
+  return "shape = \"stl\", file = " + quoted(s.file) + ", scale = " + show(s.scale) +
+         ", translate = " + text_of(s.translate);
+}
+
+std::string text_of(const std::vector<ShapeSpec>& shapes) {
+  std::string text = "[";
+  for (const ShapeSpec& shape : shapes)
+    text += "\n  {" + std::visit([](const auto& form) { return form_text(form); }, shape.form) +
+            ", outside = " + text_of(shape.outside) + "},";
+  return text + (shapes.empty() ? "]" : "\n]");
+}
+
+void write_frame(std::ostream& out, const Case& c) {
+  out << "# The resolved case: every key with its value, defaults included.\n"
+      << "[case]\nname = " << quoted(c.name) << "\ndescription = " << quoted(c.description) << "\n\n"
+      << "[resolution]\nspacing = " << show(c.spacing) << "\nsupport_ratio = " << show(c.support_ratio)
+      << "\ndimensions = " << c.dimensions << "\norigin = " << text_of(c.origin) << "\n\n"
+      << "[gravity]\nacceleration = " << text_of(c.gravity) << "\n\n"
+      << "[body_force]\nacceleration = " << text_of(c.body_force) << "\n\n"
+      << "[domain]\nmin = " << text_of(c.domain.lower) << "\nmax = " << text_of(c.domain.upper)
+      << "\nperiodic = [";
+  const char* separator = "";
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!c.domain.periodic[k]) continue;
+    out << separator << quoted(axis_names[k]);
+    separator = ", ";
+  }
+  out << "]\ndeparture = " << name_of(departure_names, c.domain.departure) << "\n\n";
+}
+
+void write_fluids(std::ostream& out, const Case& c) {
+  for (const FluidSpec& fluid : c.fluids) {
+    out << "[fluid." << fluid.name << "]\ndensity = " << show(fluid.density)
+        << "\nrheology = " << quoted(fluid.info().name) << "\n";
+    for (int k = 0; k < fluid.info().parameter_count; ++k)
+      out << fluid.info().parameters[k].key << " = " << show(fluid.parameters[static_cast<std::size_t>(k)])
+          << "\n";
+    out << "\n";
+  }
+  for (const RegionSpec& region : c.regions)
+    out << "[[region]]\nfluid = " << quoted(c.fluids[static_cast<std::size_t>(region.fluid)].name)
+        << "\nshapes = " << text_of(region.shapes) << "\nsubtract = " << text_of(region.subtract)
+        << "\nvelocity = " << text_of(region.velocity)
+        << "\nangular_velocity = " << text_of(region.angular_velocity)
+        << "\ncenter = " << text_of(region.center)
+        << "\npressure = " << name_of(pressure_names, region.pressure) << "\n\n";
+}
+
+void write_walls(std::ostream& out, const Case& c) {
+  for (const WallSpec& wall : c.walls)
+    out << "[[wall]]\nname = " << quoted(wall.name) << "\nslip = " << name_of(slip_names, wall.slip)
+        << "\nshapes = " << text_of(wall.shapes) << "\nsubtract = " << text_of(wall.subtract) << "\n\n";
+}
+
+void write_numerics(std::ostream& out, const Case& c) {
+  const NumericsSetup& n = c.numerics;
+  out << "[numerics]\nkernel = " << quoted(c.kernel)
+      << "\nsound_speed = " << (n.sound_speed > 0 ? show(n.sound_speed) : "\"auto\"")
+      << "\ncourant = " << show(n.courant) << "\nmax_time_step = " << show(n.max_time_step)
+      << "\ndensity_diffusion = " << show(n.density_diffusion)
+      << "\ntension_limit = " << show(n.tension_limit) << "\nanti_pairing = " << show(n.anti_pairing)
+      << "\nviscosity_correction = " << show(n.viscosity_correction) << "\ntheta = " << show(n.theta)
+      << "\nsolver = " << name_of(solver_names, n.solver) << "\ntolerance = " << show(n.tolerance)
+      << "\nmax_iterations = " << n.max_iterations << "\nrelaxation = " << show(n.relaxation)
+      << "\nskin = " << show(n.skin) << "\n\n";
+}
+
+void write_measure(std::ostream& out, const MeasureSpec& m) {
+  out << "\n[[measure]]\nname = " << quoted(m.name) << "\ntype = " << name_of(measure_names, m.type)
+      << "\nfraction = " << show(m.fraction);
+  if (m.type == MeasureType::front)
+    out << "\ndirection = " << name_of(direction_names, index_of(m.direction))
+        << "\nposition = " << show(m.position) << "\n";
+  else
+    out << "\nlip = " << text_of(m.lip) << "\noutward = " << name_of(direction_names, index_of(m.outward))
+        << "\nbottom = " << show(m.bottom) << "\n";
+}
+
+}  // namespace
+
+std::string to_toml(const Case& c) {
+  std::ostringstream out;
+  write_frame(out, c);
+  write_fluids(out, c);
+  write_walls(out, c);
+  write_numerics(out, c);
+  out << "[output]\nend_time = " << show(c.output.end_time) << "\ninterval = " << show(c.output.interval)
+      << "\nhistory_interval = " << show(c.output.history_interval) << "\nwalls = " << text_of(c.output.walls)
+      << "\n";
+  for (const MeasureSpec& measure : c.measures) write_measure(out, measure);
+  return out.str();
+}
+
+}  // namespace slagflow

@@ -1,0 +1,160 @@
+#include "host/check.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string_view>
+
+namespace slagflow {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+// Extent of the fluid along a unit vector, half a spacing at either end included.
+double extent(const SimulationSetup& setup, Vec3d along) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3d& p : setup.particles.position) {
+    low = std::min(low, dot(p, along));
+    high = std::max(high, dot(p, along));
+  }
+  return high - low + setup.spacing;
+}
+
+// Depth along gravity and the smaller width across it.
+void add_lengths(CaseCheck& check, const SimulationSetup& setup) {
+  const double g = norm(setup.gravity);
+  check.width = std::numeric_limits<double>::infinity();
+  int down = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (g > 0 && (down < 0 || std::abs(setup.gravity[axis]) > std::abs(setup.gravity[down]))) down = axis;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == down || (axis == 1 && setup.dimensions == 2)) continue;
+    Vec3d along;
+    along[axis] = 1;
+    check.width = std::min(check.width, extent(setup, along));
+  }
+  check.depth = g > 0 ? extent(setup, setup.gravity * (1 / g)) : check.width;
+}
+
+void add_speed(CaseCheck& check, const SimulationSetup& setup) {
+  double fastest = 0;
+  for (const Vec3d& v : setup.particles.velocity) fastest = std::max(fastest, norm(v));
+  const double fall = std::sqrt(2 * norm(setup.gravity) * check.depth);
+  check.speed = std::max(fall, fastest);
+  check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start";
+}
+
+double yield_stress(const Rheology& rheology) {
+  const RheologyInfo& info = rheology.info();
+  for (int k = 0; k < info.parameter_count; ++k) {
+    if (std::string_view(info.parameters[k].key) == "yield_stress") return rheology.parameters[k];
+  }
+  return 0;
+}
+
+void add_numbers(CaseCheck& check, const SimulationSetup& setup) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const FluidSetup& fluid : setup.fluids) {
+    const double eta = fluid.rheology.parameters[0];
+    const double g = norm(setup.gravity);
+    FluidNumbers numbers;
+    numbers.name = fluid.name;
+    numbers.reynolds = check.speed > 0 ? fluid.rest_density * check.speed * check.width / eta : unknown;
+    numbers.bingham =
+        check.speed > 0 ? yield_stress(fluid.rheology) * check.width / (eta * check.speed) : unknown;
+    numbers.dam = g > 0 ? fluid.rest_density * check.width * std::sqrt(g * check.depth) / eta : unknown;
+    check.fluids.push_back(numbers);
+  }
+}
+
+void add_time_step(CaseCheck& check, const BuiltCase& built) {
+  const NumericsSetup& numerics = built.setup.numerics;
+  check.time_step = numerics.courant * (check.support_radius / 2) / numerics.sound_speed;
+  check.time_step_reason = "courant (h/2) / sound speed";
+  if (numerics.max_time_step > 0 && numerics.max_time_step < check.time_step) {
+    check.time_step = numerics.max_time_step;
+    check.time_step_reason = "numerics.max_time_step";
+  }
+  check.steps = std::ceil(built.resolved.output.end_time / check.time_step);
+}
+
+void add_warnings(CaseCheck& check, const BuiltCase& built) {
+  check.warnings = built.warnings;
+  if (check.mach > 0.15)
+    check.warnings.push_back(
+        format("the Mach number %.2g exceeds 0.15: the fluid will be compressible; raise "
+               "numerics.sound_speed to %.3g m/s",
+               check.mach, 10 * check.speed));
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (check.memory > 0.9 * memory)
+    check.warnings.push_back(format("the run needs about %.2g GB, this machine has %.2g GB of memory",
+                                    check.memory / 1e9, memory / 1e9));
+  if (check.depth < 4 * check.spacing || check.width < 4 * check.spacing)
+    check.warnings.push_back("the fluid is less than 4 particles deep or wide: the resolution is too coarse");
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1) return "under a second";
+  if (seconds < 120) return format("%.0f s", seconds);
+  return seconds < 7200 ? format("%.0f min", seconds / 60) : format("%.1f h", seconds / 3600);
+}
+
+std::string number(double value) { return std::isnan(value) ? "-" : format("%.4g", value); }
+
+}  // namespace
+
+CaseCheck check_case(const BuiltCase& built) {
+  const SimulationSetup& setup = built.setup;
+  CaseCheck check;
+  check.fluid_particles = static_cast<std::int64_t>(setup.particles.position.size());
+  check.wall_particles = static_cast<std::int64_t>(setup.walls.position.size());
+  check.spacing = setup.spacing;
+  check.support_radius = setup.support_ratio * setup.spacing;
+  check.sound_speed = setup.numerics.sound_speed;
+  add_time_step(check, built);
+  add_lengths(check, setup);
+  add_speed(check, setup);
+  add_numbers(check, setup);
+  check.mach = check.speed / check.sound_speed;
+  const auto fluid = static_cast<double>(check.fluid_particles);
+  check.memory =
+      bytes_per_fluid_particle * fluid + bytes_per_wall_particle * static_cast<double>(check.wall_particles);
+  check.run_time = check.steps * fluid / particle_steps_per_second;
+  add_warnings(check, built);
+  return check;
+}
+
+std::string to_text(const CaseCheck& c) {
+  std::string text;
+  text += format("particles        %lld fluid, %lld wall\n", static_cast<long long>(c.fluid_particles),
+                 static_cast<long long>(c.wall_particles));
+  text += format("spacing          %.4g m, support radius h %.4g m\n", c.spacing, c.support_radius);
+  text += format("time step        %.4g s, limited by %s\n", c.time_step, c.time_step_reason.c_str());
+  text += format("steps            %.0f to the end time\n", c.steps);
+  text += format("scales           L %.4g m, H %.4g m, U %.4g m/s (%s)\n", c.width, c.depth, c.speed,
+                 c.speed_source.c_str());
+  for (const FluidNumbers& f : c.fluids)
+    text += format("fluid %-10s Reynolds %s, Bingham %s, N %s\n", f.name.c_str(), number(f.reynolds).c_str(),
+                   number(f.bingham).c_str(), number(f.dam).c_str());
+  text +=
+      "                 Reynolds = rho U L / eta, Bingham = tau_B L / (eta U), N = rho L sqrt(g H) / eta\n";
+  text += format("sound speed      %.4g m/s, Mach number %.3g\n", c.sound_speed, c.mach);
+  text += format("memory           about %.3g MB\n", c.memory / 1e6);
+  text += format("run time         roughly %s on two CPU cores (%.2g particle-steps/s)\n",
+                 duration(c.run_time).c_str(), particle_steps_per_second);
+  for (const std::string& warning : c.warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace slagflow

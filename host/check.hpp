@@ -1,0 +1,47 @@
+// What can be said of a case before it runs: sizes, time step, dimensionless numbers and cost.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/setup_builder.hpp"
+
+namespace slagflow {
+
+// Costs of the CPU build, for estimates only.
+inline constexpr double bytes_per_fluid_particle = 2800;
+inline constexpr double bytes_per_wall_particle = 500;
+inline constexpr double particle_steps_per_second = 4e5;  // fluid particles, two cores
+
+struct FluidNumbers {
+  std::string name;
+  double reynolds = 0;  // rho U L / eta
+  double bingham = 0;   // tau_B L / (eta U), 0 without a yield stress
+  double dam = 0;       // N = rho L sqrt(g H) / eta, equation (9) of Tsuboi and Ito 2017
+};
+
+struct CaseCheck {
+  std::int64_t fluid_particles = 0, wall_particles = 0;
+  double spacing = 0, support_radius = 0;  // [m]
+  double time_step = 0;                    // [s] largest that the limits allow
+  std::string time_step_reason;
+  double steps = 0;  // to the end time
+  double depth = 0;  // [m] H, extent of the fluid along gravity; without gravity: its smallest extent
+  double width = 0;  // [m] L, smaller extent of the fluid across gravity; without gravity: as H
+  double speed = 0;  // [m/s] U
+  std::string speed_source;
+  std::vector<FluidNumbers> fluids;  // numbers that need a speed are not-a-number where there is none
+  double sound_speed = 0, mach = 0;  // [m/s], U / sound speed
+  double memory = 0;                 // [bytes]
+  double run_time = 0;               // [s]
+  std::vector<std::string> warnings;
+};
+
+// eta is the first parameter of a fluid's rheology (the plastic or the dynamic viscosity).
+CaseCheck check_case(const BuiltCase& built);
+
+// For people.
+std::string to_text(const CaseCheck& check);
+
+}  // namespace slagflow

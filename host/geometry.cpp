@@ -1,0 +1,233 @@
+#include "host/geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "backend/error.hpp"
+
+namespace slagflow {
+namespace {
+
+constexpr double wall_gap = 0.25;          // [spacings] that fluid keeps from a wall at the start
+constexpr double off_lattice = 0.05;       // [spacings] that a face may lie beside its place
+constexpr double bytes_per_particle = 89;  // position, normals, depths, index of a wall particle
+constexpr std::size_t most_particles = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t room_check = 1 << 20;  // particles between looks at the memory
+
+class Filler {
+ public:
+  explicit Filler(const Case& c) : c_(c), lattice_(c), solids_(c) {
+    steps_ = steps_by_length();
+    body_.assign(lattice_.size(), 0);
+    flags_.assign(lattice_.size(), 0);
+  }
+
+  Filling run() {
+    mark_walls();
+    for (std::size_t r = 0; r < c_.regions.size(); ++r) fill_region(r);
+    mark_open();
+    for (int axis = 0; axis < 3; ++axis) widen_open(axis);
+    place_walls();
+    return std::move(result_);
+  }
+
+ private:
+  // Bits of flags_. open << (axis + 1): within the layers of an open site, along this axis and those before.
+  static constexpr int fluid = 1, open = 2, sees_open = open << 3;
+
+  void mark_walls() {
+    for (std::size_t b = 0; b < solids_.count(); ++b)
+      lattice_.visit_inside([&](Vec3d p) { return solids_[b].distance(p); },
+                            [&](const SiteIndex& s, Vec3d) {
+                              std::uint8_t& body = body_[lattice_.linear(s)];
+                              if (body == 0) body = static_cast<std::uint8_t>(b + 1);
+                            });
+  }
+
+  void fill_region(std::size_t r) {
+    const RegionSpec& region = c_.regions[r];
+    const std::string key = "region." + std::to_string(r);
+    const Solid solid = make_solid(c_, region.shapes, region.subtract, key);
+    FluidParticles& out = result_.fluid;
+    const std::size_t first = out.position.size();
+    lattice_.visit_inside(
+        [&](Vec3d p) { return solid.distance(p); },
+        [&](const SiteIndex& s, Vec3d p) {
+          std::uint8_t& flags = flags_[lattice_.linear(s)];
+          if (!lattice_.in_domain(s) || body_[lattice_.linear(s)] != 0 || (flags & fluid)) return;
+          if (solids_.distance(p) < wall_gap * lattice_.spacing()) return;
+          flags |= fluid;
+          check_room();
+          out.position.push_back(p);
+          out.velocity.push_back(region.velocity + cross(region.angular_velocity, p - region.center));
+        });
+    if (out.position.size() == first)
+      throw InputError(
+          c_.place_of(key) + ": key '" + key +
+          "': no particle: allowed: shapes that hold a lattice site inside the domain, outside of "
+          "walls and of earlier regions");
+    out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
+    set_pressure(region, first);
+  }
+
+  // rho |g| times the depth below the free surface, half a spacing above the highest particle.
+  void set_pressure(const RegionSpec& region, std::size_t first) {
+    FluidParticles& out = result_.fluid;
+    out.pressure.resize(out.position.size(), 0);
+    if (region.pressure == InitialPressure::zero) return;
+    const double density = c_.fluids[static_cast<std::size_t>(region.fluid)].density;
+    double highest = -std::numeric_limits<double>::infinity();  // potential -g.x, [m^2/s^2]
+    for (std::size_t i = first; i < out.position.size(); ++i)
+      highest = std::max(highest, -dot(c_.gravity, out.position[i]));
+    highest += 0.5 * lattice_.spacing() * norm(c_.gravity);
+    for (std::size_t i = first; i < out.position.size(); ++i)
+      out.pressure[i] = density * (highest + dot(c_.gravity, out.position[i]));
+  }
+
+  template <class Visit>
+  void for_all_sites(const Visit& visit) const {
+    const SiteIndex& n = lattice_.count();
+    SiteIndex s{};
+    for (s[2] = 0; s[2] < n[2]; ++s[2])
+      for (s[1] = 0; s[1] < n[1]; ++s[1])
+        for (s[0] = 0; s[0] < n[0]; ++s[0]) visit(s);
+  }
+
+  void mark_open() {
+    for_all_sites([&](const SiteIndex& s) {
+      const std::size_t at = lattice_.linear(s);
+      if (body_[at] == 0 && lattice_.in_domain(s)) flags_[at] |= open;
+    });
+  }
+
+  // Carries the bit of the axis before on to all sites within the layers along this axis.
+  void widen_open(int axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    const int from = open << axis, to = open << (axis + 1);
+    const std::int64_t layers = lattice_.layers(), n = lattice_.count()[k];
+    const std::int64_t wrap = lattice_.periodic(axis) ? layers : 0;
+    for_all_sites([&](const SiteIndex& start) {
+      if (start[k] != 0) return;
+      for (const std::int64_t way : {1, -1}) {
+        std::int64_t since = layers + 1;  // steps since the last open site
+        for (std::int64_t step = -wrap; step < n; ++step) {
+          SiteIndex s = start;
+          lattice_.move(s, axis, way > 0 ? step : n - 1 - step);
+          std::uint8_t& flags = flags_[lattice_.linear(s)];
+          since = (flags & from) ? 0 : since + 1;
+          if (since <= layers) flags = static_cast<std::uint8_t>(flags | to);
+        }
+      }
+    });
+  }
+
+  // All steps within the layers, short ones first.
+  std::vector<SiteIndex> steps_by_length() const {
+    const std::int64_t n = lattice_.layers();
+    std::vector<SiteIndex> steps;
+    for (std::int64_t z = -n; z <= n; ++z)
+      for (std::int64_t y = -n; y <= n; ++y)
+        for (std::int64_t x = -n; x <= n; ++x) steps.push_back({x, y, z});
+    const auto square_of = [](const SiteIndex& s) { return s[0] * s[0] + s[1] * s[1] + s[2] * s[2]; };
+    std::stable_sort(steps.begin(), steps.end(),
+                     [&](const SiteIndex& a, const SiteIndex& b) { return square_of(a) < square_of(b); });
+    return steps;
+  }
+
+  // Position of the nearest open site; a wall site that is placed has one within its layers.
+  Vec3d nearest_open(const SiteIndex& site, Vec3d p) const {
+    for (const SiteIndex& step : steps_) {
+      SiteIndex s = site;
+      bool there = true;
+      for (int axis = 0; axis < 3; ++axis)
+        there = lattice_.move(s, axis, step[static_cast<std::size_t>(axis)]) && there;
+      if (there && (flags_[lattice_.linear(s)] & open))
+        return p + lattice_.spacing() * Vec3d{static_cast<double>(step[0]), static_cast<double>(step[1]),
+                                              static_cast<double>(step[2])};
+    }
+    return p;
+  }
+
+  void place_walls() {
+    const WallFaces faces(c_, lattice_, solids_);
+    WallParticles& out = result_.walls;
+    for_all_sites([&](const SiteIndex& s) {
+      const std::size_t at = lattice_.linear(s);
+      if (body_[at] == 0 || !(flags_[at] & sees_open)) return;
+      const auto body = static_cast<std::uint8_t>(body_[at] - 1);
+      const Vec3d p = lattice_.position(s);
+      const WallFace face = faces.of(p, body, nearest_open(s, p));
+      if (face.depth == 0) return;
+      check_room();
+      out.position.push_back(p);
+      out.normal.push_back(face.normal);
+      out.depth.push_back(face.depth);
+      out.back_normal.push_back(face.back_normal);
+      out.back_depth.push_back(face.back_depth);
+      out.body.push_back(body);
+      check_face(s, p, face);
+    });
+  }
+
+  // Warns of a planar face that borders the fluid but does not lie midway between two layers of sites.
+  void check_face(const SiteIndex& s, Vec3d p, const WallFace& face) {
+    const double depth = face.depth / lattice_.spacing();
+    if (depth > 1 || std::abs(depth - 0.5) <= off_lattice) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::abs(face.normal[axis]) < 1 - 1e-9) continue;
+      const int sign = face.normal[axis] > 0 ? 1 : -1;
+      const double coordinate = p[axis] + face.depth * face.normal[axis];
+      if (!fluid_beyond(s, axis, sign)) return;
+      const long rounded = std::lround(1000 * coordinate / lattice_.spacing());
+      const std::size_t body = body_[lattice_.linear(s)] - std::size_t{1};
+      if (!warned_.emplace(body, axis, sign, rounded).second) return;
+      char text[160];
+      std::snprintf(text, sizeof text, "the face %c = %.6g m lies %.2f spacings off the lattice", "xyz"[axis],
+                    coordinate, std::abs(depth - 0.5));
+      result_.warnings.push_back("wall '" + c_.walls[body].name + "': " + text +
+                                 "; faces that border the fluid should be a whole number of spacings from "
+                                 "resolution.origin");
+    }
+  }
+
+  bool fluid_beyond(SiteIndex s, int axis, int sign) const {
+    for (int step = 0; step < 2; ++step)
+      if (lattice_.move(s, axis, sign) && (flags_[lattice_.linear(s)] & fluid)) return true;
+    return false;
+  }
+
+  void check_room() const {
+    const std::size_t particles = result_.fluid.position.size() + result_.walls.position.size();
+    if (particles >= most_particles) refuse("more than 2147483647 particles");
+    if (particles == 0 || particles % room_check != 0) return;
+    // Arrays that grow are held twice for a moment.
+    const double needed = 2 * bytes_per_particle * static_cast<double>(particles),
+                 available = available_memory();
+    if (needed > available)
+      refuse("more than " + std::to_string(particles) + " particles need " + gigabytes(needed) +
+             " of memory, " + gigabytes(available) + " are available");
+  }
+
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw InputError(c_.place_of("resolution.spacing") + ": key 'resolution.spacing': " + why +
+                     ": allowed: a larger spacing");
+  }
+
+  const Case& c_;
+  Lattice lattice_;
+  WallSolids solids_;
+  std::vector<std::uint8_t> body_;   // per site: 0, or index of the wall + 1
+  std::vector<std::uint8_t> flags_;  // per site
+  std::set<std::tuple<std::size_t, int, int, long>> warned_;
+  std::vector<SiteIndex> steps_;
+  Filling result_;
+};
+
+}  // namespace
+
+Filling fill(const Case& c) { return Filler(c).run(); }
+
+}  // namespace slagflow

@@ -1,0 +1,117 @@
+// Fills regions and walls with the sites of one cubic lattice.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/case.hpp"
+#include "host/shapes.hpp"
+#include "setup.hpp"
+
+namespace slagflow {
+
+using SiteIndex = std::array<std::int64_t, 3>;
+
+// The lattice sites of the domain, and of a margin around it along axes that are not periodic. With two
+// dimensions there is one layer, at y = 0.
+class Lattice {
+ public:
+  // Throws InputError when its flags would not fit into memory.
+  explicit Lattice(const Case& c);
+
+  double spacing() const { return spacing_; }
+  int layers() const { return static_cast<int>(layers_); }  // of wall particles, and width of the margin
+  const SiteIndex& count() const { return count_; }
+  std::size_t size() const { return static_cast<std::size_t>(count_[0] * count_[1] * count_[2]); }
+  std::size_t linear(const SiteIndex& s) const {
+    return static_cast<std::size_t>(s[0] + count_[0] * (s[1] + count_[1] * s[2]));
+  }
+  Vec3d position(const SiteIndex& s) const;  // [m]
+  bool in_domain(const SiteIndex& s) const;
+  bool periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
+  // Moves along an axis, round a periodic one. Returns false when that leaves the lattice.
+  bool move(SiteIndex& s, int axis, std::int64_t steps) const;
+
+  using Distance = std::function<double(Vec3d)>;
+  using Visit = std::function<void(const SiteIndex&, Vec3d)>;
+  // Visits all sites where a signed distance is negative. Ties, sites on a face, go to the body on the
+  // side of the larger coordinate. Blocks of sites that are clearly in or out are settled at once.
+  void visit_inside(const Distance& distance, const Visit& visit) const;
+
+ private:
+  void visit_block(const SiteIndex& first, const Distance& distance, const Visit& visit) const;
+
+  double spacing_;
+  Vec3d origin_;
+  std::int64_t layers_;
+  bool flat_;
+  std::array<bool, 3> periodic_;
+  SiteIndex first_{}, count_{}, inner_first_{}, inner_last_{};  // inner: relative to first_, last excluded
+};
+
+// The solid of a region or wall; `key` names it in messages. Throws InputError on a bad STL file.
+Solid make_solid(const Case& c, const std::vector<ShapeSpec>& shapes, const std::vector<ShapeSpec>& subtract,
+                 const std::string& key);
+
+// The solids of a case's walls.
+class WallSolids {
+ public:
+  explicit WallSolids(const Case& c);
+
+  std::size_t count() const { return solids_.size(); }
+  const Solid& operator[](std::size_t body) const { return solids_[body]; }
+  // Signed distance to the nearest [m], negative inside.
+  double distance(Vec3d p) const;
+
+ private:
+  std::vector<Solid> solids_;
+};
+
+// Surface of the walls below a wall site.
+struct WallFace {
+  double depth = 0;       // [m] > 0
+  Vec3d normal;           // unit vector into the open
+  double back_depth = 0;  // [m] of the opposite face of a thin plate; 0: none
+  Vec3d back_normal;
+};
+
+// Finds the face a wall site belongs to: the nearest that borders the open. Where the open is nearer than
+// that, behind a concave corner, the nearest plane that continues a face on the way to it. Of two faces
+// equally near, as behind an edge, the one that carries more of the fluid's weight. A site in a plate thinner
+// than its particle layers also gets the opposite face.
+class WallFaces {
+ public:
+  WallFaces(const Case& c, const Lattice& lattice, const WallSolids& solids);
+  // p: a site in the body; open: the nearest site in no wall. Returns a depth of 0 when there is no face.
+  WallFace of(Vec3d p, std::size_t body, Vec3d open) const;
+
+ private:
+  std::vector<Foot> feet_by_depth(Vec3d p, std::size_t body) const;
+  void add_back(Vec3d p, const std::vector<Foot>& feet, WallFace& face) const;
+  bool borders_open(const Foot& foot) const;
+
+  const WallSolids& solids_;
+  DomainSetup domain_;
+  Vec3d gravity_;
+  double spacing_, reach_;
+};
+
+struct Filling {
+  FluidParticles fluid;
+  WallParticles walls;
+  std::vector<std::string> warnings;
+};
+
+// Places all particles of a case. Fluid sites are in a region, in no earlier region, and at least a quarter
+// of a spacing away from walls; wall sites are in a wall and see fluid sites within their layers.
+// Throws InputError: a region without a site, too many particles, lack of memory.
+Filling fill(const Case& c);
+
+// Memory that can be had without swapping [bytes].
+double available_memory();
+std::string gigabytes(double bytes);
+
+}  // namespace slagflow

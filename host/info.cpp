@@ -1,0 +1,134 @@
+#include "host/info.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <vector>
+
+#include "backend/error.hpp"
+#include "host/hdf5_handles.hpp"
+#include "host/vtkhdf.hpp"
+
+namespace slagflow {
+namespace {
+
+using hdf5::File;
+using hdf5::Handle;
+
+std::string number(double value) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.5g", value);
+  return text.data();
+}
+
+std::vector<std::int64_t> integers(const File& file, const std::string& path, std::int64_t count) {
+  std::vector<std::int64_t> values(static_cast<std::size_t>(count));
+  read_rows(file, open_dataset(file, path), {0, values.size()}, H5T_NATIVE_INT64, values.data());
+  return values;
+}
+
+std::vector<std::string> members(const File& file, const std::string& path) {
+  std::vector<std::string> names;
+  const Handle group = open_group(file, path);
+  H5G_info_t info{};
+  file.check(H5Gget_info(group, &info), "read");
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    std::array<char, 256> name{};
+    H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
+    names.emplace_back(name.data());
+  }
+  return names;
+}
+
+struct Steps {
+  std::vector<double> times;
+  std::vector<std::int64_t> points;
+};
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+};
+
+Range range_of(const File& file, const std::string& table, const std::string& offsets, const Steps& steps) {
+  const Handle dataset = open_dataset(file, table);
+  const auto components = static_cast<std::size_t>(columns(file, dataset));
+  const auto first = integers(file, offsets, static_cast<std::int64_t>(steps.times.size()));
+  Range range;
+  std::vector<double> values;
+  for (std::size_t s = 0; s < first.size(); ++s) {
+    const auto count = static_cast<std::size_t>(steps.points[s]);
+    values.resize(components * count);
+    read_rows(file, dataset, {static_cast<hsize_t>(first[s]), count}, H5T_NATIVE_DOUBLE, values.data());
+    for (const double value : values) {
+      range.low = std::min(range.low, value);
+      range.high = std::max(range.high, value);
+    }
+  }
+  return range;
+}
+
+std::string array_line(const File& file, const std::string& name, const std::string& path,
+                       const std::string& offsets, const Steps& steps) {
+  std::string units;
+  for (const auto& [key, value] : read_texts(file, open_dataset(file, path))) {
+    if (key == "units" && value != "1") units = " " + value;
+  }
+  const Range range = range_of(file, path, offsets, steps);
+  const std::string values =
+      range.low <= range.high ? number(range.low) + " to " + number(range.high) + units : "no values";
+  return "  " + name + std::string(std::max<std::size_t>(14, name.size() + 1) - name.size(), ' ') + values +
+         "\n";
+}
+
+std::string steps_line(const Steps& steps) {
+  if (steps.times.empty()) return "time steps: none\n";
+  const auto [fewest, most] = std::minmax_element(steps.points.begin(), steps.points.end());
+  return "time steps: " + std::to_string(steps.times.size()) + ", from " + number(steps.times.front()) +
+         " s to " + number(steps.times.back()) + " s\nparticles: " + std::to_string(steps.points.front()) +
+         " in the first, " + std::to_string(steps.points.back()) + " in the last, " +
+         std::to_string(*fewest) + " to " + std::to_string(*most) + " in all\n";
+}
+
+// All texts but the case itself, which is long.
+std::string provenance_lines(const File& file) {
+  std::string text;
+  for (const auto& [name, value] : read_texts(file, open_group(file, "/VTKHDF"))) {
+    if (name != "case_text" && name != "Type") text += name + ": " + value + "\n";
+  }
+  return text;
+}
+
+std::string describe(const File& file) {
+  Steps steps;
+  const std::int64_t count = vtkhdf_steps(file);
+  steps.points = integers(file, "/VTKHDF/NumberOfPoints", count);
+  steps.times.resize(static_cast<std::size_t>(count));
+  read_rows(file, open_dataset(file, "/VTKHDF/Steps/Values"), {0, steps.times.size()}, H5T_NATIVE_DOUBLE,
+            steps.times.data());
+
+  std::string text = file.path() + "\n" + provenance_lines(file) + steps_line(steps) + "arrays:\n";
+  text += array_line(file, "Points", "/VTKHDF/Points", "/VTKHDF/Steps/PointOffsets", steps);
+  for (const std::string& name : members(file, "/VTKHDF/PointData"))
+    text +=
+        array_line(file, name, "/VTKHDF/PointData/" + name, "/VTKHDF/Steps/PointDataOffsets/" + name, steps);
+  return text;
+}
+
+}  // namespace
+
+std::string describe_file(const std::string& path) {
+  const hdf5::QuietErrors quiet;
+  if (!std::filesystem::exists(path)) throw InputError(path + ": no such file");
+  try {
+    return describe(File::open(path, File::Access::read));
+  } catch (const InputError&) {
+    throw;
+  } catch (const Error& error) {
+    throw InputError(path + ": is no .vtkhdf file of a run: " + error.what());
+  }
+}
+
+}  // namespace slagflow

@@ -1,0 +1,109 @@
+#include "host/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "backend/error.hpp"
+#include "host/case.hpp"
+#include "host/check.hpp"
+#include "host/info.hpp"
+#include "host/provenance.hpp"
+#include "host/run.hpp"
+#include "host/setup_builder.hpp"
+
+namespace slagflow {
+namespace {
+
+struct Arguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  RunOptions run;
+};
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+std::string version_text() {
+  const Provenance p = build_provenance();
+  return "slagflow " + p.version + "\ncommit    " + p.commit + "\nbuild     " + p.backend + ", " +
+         p.precision + ", " + p.compiler + ", " + p.build_type + "\ndevice    " + p.device + " (" +
+         std::to_string(p.threads) + " threads)";
+}
+
+int run(const Arguments& arguments) {
+  const RunOutcome outcome = run_case(load_case(arguments.file, arguments.overrides), arguments.run);
+  print("results in " + outcome.folder + "\n");
+  for (const std::string& line : outcome.results) print(line + "\n");
+  return outcome.exit_code();
+}
+
+int check(const Arguments& arguments) {
+  const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
+  print(arguments.file + ": valid\n" + to_text(check_case(built)));
+  return 0;
+}
+
+int info(const Arguments& arguments) {
+  print(describe_file(arguments.file));
+  return 0;
+}
+
+void add_case(CLI::App* command, Arguments& arguments) {
+  command->add_option("case", arguments.file, "case file")->required()->type_name("CASE.toml");
+  command->add_option("--set", arguments.overrides, "set a key of the case, as fluid.slag.yield_stress=5")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+void add_run_options(CLI::App* command, Arguments& arguments) {
+  RunOptions& run = arguments.run;
+  command->add_option("-o,--output", run.folder, "folder of the run (default: runs/<case name>)")
+      ->type_name("DIR");
+  command->add_option("--threads", run.threads, "threads of the CPU build")->check(CLI::Range(1, 4096));
+  command->add_option("--until", run.until, "end at this simulated time [s]")->check(CLI::PositiveNumber);
+  command->add_flag_callback(
+      "--quiet", [&run] { run.verbosity = Verbosity::quiet; }, "only warnings and errors on stderr");
+  command->add_flag_callback(
+      "--overwrite", [&run] { run.overwrite = Overwrite::replace; }, "replace an earlier run in the folder");
+}
+
+int dispatch(int argc, const char* const* argv) {
+  CLI::App app("Smoothed-particle hydrodynamics of slag with a yield stress and a free surface.", "slagflow");
+  Arguments arguments;
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text, "version, commit, build and device");
+  CLI::App* const run_command = app.add_subcommand("run", "run a case");
+  add_case(run_command, arguments);
+  add_run_options(run_command, arguments);
+  CLI::App* const check_command = app.add_subcommand("check", "validate a case and estimate its cost");
+  add_case(check_command, arguments);
+  CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file holds");
+  info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (run_command->parsed()) return run(arguments);
+  return check_command->parsed() ? check(arguments) : info(arguments);
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return 1;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,31 @@
+// Where a result comes from: goes into every file that a run writes.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/case.hpp"
+
+namespace slagflow {
+
+struct Provenance {
+  std::string version, commit, compiler, build_type;
+  std::string backend;    // "cpu" or "cuda"
+  std::string device;     // processor or GPU
+  int threads = 1;        // CPU build
+  std::string precision;  // "float" or "double"
+  std::string case_name;
+  std::string case_text;    // the resolved case, TOML
+  std::string started_utc;  // ISO 8601
+
+  // Name and value of each, as attributes of a file.
+  std::vector<std::pair<std::string, std::string>> attributes() const;
+};
+
+// The build and the device, without a case.
+Provenance build_provenance();
+// The build, the device, a resolved case and the present time.
+Provenance run_provenance(const Case& resolved);
+
+}  // namespace slagflow

@@ -1,0 +1,51 @@
+#include "host/run_folder.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "backend/error.hpp"
+
+namespace slagflow {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<const char*, 7> run_files{"case.toml",   "particles.vtkhdf", "walls.vtkhdf",
+                                               "history.csv", "summary.json",     "checkpoint.h5",
+                                               "log.txt"};
+
+}  // namespace
+
+std::string run_folder(const Case& c, const RunOptions& options) {
+  return options.folder.empty() ? "runs/" + c.name : options.folder;
+}
+
+void require_free_folder(const std::string& folder, Overwrite overwrite) {
+  std::error_code failed;
+  if (!fs::exists(folder, failed)) return;
+  if (!fs::is_directory(folder, failed)) throw InputError(folder + ": is a file; give a folder with -o");
+  if (overwrite == Overwrite::refuse && !fs::is_empty(folder, failed))
+    throw InputError(folder +
+                     ": holds files already; --overwrite replaces an earlier run, -o takes another folder");
+}
+
+void prepare_folder(const std::string& folder) {
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) throw Error("cannot create the folder " + folder + ": " + failed.message());
+  for (const char* name : run_files) {
+    fs::remove(fs::path(folder) / name, failed);
+    if (failed) throw Error("cannot remove " + folder + "/" + name + ": " + failed.message());
+  }
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::trunc);
+  file << text << std::flush;
+  if (!file) throw Error("cannot write to " + path + ": " + std::strerror(errno));
+}
+
+}  // namespace slagflow

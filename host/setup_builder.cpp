@@ -1,0 +1,74 @@
+#include "host/setup_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "backend/error.hpp"
+#include "host/geometry.hpp"
+
+namespace slagflow {
+namespace {
+
+// c0 = 11 sqrt(2 |g| H): ten times the speed of a fall through the depth of the fluid, and a tenth to
+// spare, keeps the density within 1 %.
+double automatic_sound_speed(const Case& c, const FluidParticles& fluid) {
+  const double g = norm(c.gravity);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3d& p : fluid.position) {
+    const double potential = -dot(c.gravity, p);
+    low = std::min(low, potential), high = std::max(high, potential);
+  }
+  const double speed = 11 * std::sqrt(2 * (high - low + g * c.spacing));
+  if (!(speed > 0))
+    throw InputError(
+        c.place_of("numerics.sound_speed") +
+        ": key 'numerics.sound_speed': value \"auto\" gives 0 without gravity: allowed: a number > 0 "
+        "[m/s], about ten times the largest speed");
+  return speed;
+}
+
+FluidSetup fluid_setup(const FluidSpec& spec) {
+  FluidSetup fluid;
+  fluid.name = spec.name;
+  fluid.rest_density = spec.density;
+  fluid.rheology.kind = spec.rheology;
+  for (std::size_t k = 0; k < spec.parameters.size(); ++k)
+    fluid.rheology.parameters[k] = static_cast<Real>(spec.parameters[k]);
+  return fluid;
+}
+
+FrontSetup front_setup(const Case& c, const MeasureSpec& measure) {
+  if (measure.type == MeasureType::front)
+    return {measure.direction.axis, measure.direction.sign, measure.position};
+  return {down(c).axis, down(c).sign, measure.bottom};
+}
+
+}  // namespace
+
+BuiltCase build_setup(const Case& c) {
+  Filling filling = fill(c);
+  BuiltCase built;
+  built.resolved = c;
+  built.warnings = std::move(filling.warnings);
+  if (!(c.numerics.sound_speed > 0))
+    built.resolved.numerics.sound_speed = automatic_sound_speed(c, filling.fluid);
+
+  SimulationSetup& setup = built.setup;
+  setup.dimensions = c.dimensions;
+  setup.spacing = c.spacing;
+  setup.support_ratio = c.support_ratio;
+  setup.gravity = c.gravity;
+  setup.body_acceleration = c.body_force;
+  for (const FluidSpec& spec : c.fluids) setup.fluids.push_back(fluid_setup(spec));
+  setup.particles = std::move(filling.fluid);
+  setup.walls = std::move(filling.walls);
+  for (const WallSpec& wall : c.walls) setup.bodies.push_back({wall.name, wall.slip});
+  setup.domain = c.domain;
+  if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
+  setup.numerics = built.resolved.numerics;
+  for (const MeasureSpec& measure : c.measures) setup.fronts.push_back(front_setup(c, measure));
+  return built;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,23 @@
+// From a case to the particles and parameters that a simulation starts from.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/case.hpp"
+#include "setup.hpp"
+
+namespace slagflow {
+
+struct BuiltCase {
+  SimulationSetup setup;              // fronts: one for each measure, in the order of Case::measures
+  Case resolved;                      // the case with the automatic sound speed replaced by its value
+  std::vector<std::string> warnings;  // one line each, for stderr
+};
+
+// Places the particles of a validated case.
+// Throws InputError: a region without a particle, more particles than fit into memory, a bad STL file,
+// a sound speed that cannot be chosen automatically.
+BuiltCase build_setup(const Case& c);
+
+}  // namespace slagflow

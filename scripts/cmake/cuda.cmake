@@ -1,0 +1,17 @@
+# CUDA build, nvcc 12 or 13. The shared runtime lets one binary run on a GPU and under a replacement runtime.
+if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+  set(CMAKE_CUDA_ARCHITECTURES 75-real 80 90)
+endif()
+if(NOT DEFINED CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX} AND EXISTS /usr/local/cuda/bin/nvcc)
+  set(CMAKE_CUDA_COMPILER /usr/local/cuda/bin/nvcc)
+endif()
+set(CMAKE_CUDA_RUNTIME_LIBRARY Shared)
+enable_language(CUDA)
+
+add_library(slagflow_backend INTERFACE)
+target_compile_definitions(slagflow_backend INTERFACE SLAGFLOW_CUDA)
+target_include_directories(slagflow_backend SYSTEM INTERFACE ${CMAKE_CUDA_TOOLKIT_INCLUDE_DIRECTORIES})
+target_compile_options(slagflow_backend INTERFACE
+  $<$<COMPILE_LANGUAGE:CUDA>:--extended-lambda --expt-relaxed-constexpr -lineinfo
+  "SHELL:-Werror all-warnings" "SHELL:-Xcompiler -Wall,-Wextra,-Werror" --no-compress>)
+set_property(TARGET slagflow_backend PROPERTY INTERFACE_POSITION_INDEPENDENT_CODE ON)

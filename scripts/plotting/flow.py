@@ -1,0 +1,187 @@
+"""The flow at some times in three views, coloured by speed."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, Normalize
+from matplotlib.ticker import MaxNLocator
+
+from plotting.splat import Canvas, View
+
+DPI = 200
+ROW_HEIGHT, WIDEST, MARGIN, GAP = 2.9, 4.5, 0.6, 0.3  # inches
+HEAD, ROW_GAP, LOWEST = 0.65, 0.42, 0.32  # inches: above the first row, above each row, below the last one
+WALL_SECTION, WALL_BEHIND, WALL_SOLID = 0.72, 0.93, 0.97  # grey levels
+# Without its darkest end, on which no shading shows.
+COLOURS = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.12, 1, 256)))
+
+SIDE = View((1, 0, 0), (0, 0, 1))
+FRONT = View((0, 1, 0), (0, 0, 1))
+OBLIQUE = View.oblique(-38, 24)
+
+
+class Scene:
+    """What is shown of a run: the fluid at the start and at some steps, and the walls around it."""
+
+    def __init__(self, run, steps):
+        self.run, self.steps, self.spacing = run, steps, run.spacing
+        fluid = [run.fluid.positions(step) for step in sorted({0, *steps})]
+        self.fluid = np.concatenate([p for p in fluid if len(p)] or [np.zeros((1, 3))])
+        self.middle = (self.fluid[:, 1].min() + self.fluid[:, 1].max()) / 2
+        walls = run.walls.positions(0) if run.walls else np.zeros((0, 3))
+        margin = 4 * self.spacing
+        near = (walls > self.fluid.min(axis=0) - margin) & (walls < self.fluid.max(axis=0) + margin)
+        self.walls = walls[near.all(axis=1)]
+
+
+class Panel:
+    """One column of the figure: a view, the axes' names, and the rectangle of the view that is shown."""
+
+    def __init__(self, scene, view, labels):
+        self.view, self.labels = view, labels
+        flat = view.project(np.concatenate([scene.fluid, scene.walls]))[:, :2]
+        self.lower, self.upper = flat.min(axis=0) - 2 * scene.spacing, flat.max(axis=0) + 2 * scene.spacing
+
+    @property
+    def box(self):
+        return self.lower[0], self.upper[0], self.lower[1], self.upper[1]
+
+    @property
+    def size(self):
+        return self.upper - self.lower
+
+
+def speed_limit(run, steps):
+    """The top of the colour bar in cm/s: a round number that all but a few particles keep below."""
+    speeds = np.concatenate([run.fluid.speeds(step) for step in steps])
+    top = 100 * float(np.quantile(speeds, 0.998)) if len(speeds) else 0
+    if top <= 0:
+        return 1.0
+    unit = 10 ** np.floor(np.log10(top))
+    return float(unit * next(m for m in (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10) if m * unit >= top * 0.999))
+
+
+def flat_layer(panel, scale, scene, walls, grey):
+    canvas = Canvas(panel.box, scale)
+    canvas.splat(panel.view.project(walls), 0.72 * scene.spacing)  # just closes the gaps of the lattice
+    return canvas.picture(np.full((len(walls), 3), grey), None, rim=0)
+
+
+def solid_layer(panel, scale, scene):
+    canvas = Canvas(panel.box, scale)
+    canvas.splat(panel.view.project(scene.walls), 0.9 * scene.spacing)
+    return canvas.picture(np.full((len(scene.walls), 3), WALL_SOLID), 6 * scene.spacing, rim=0.28)
+
+
+def wall_layers(panel, scale, scene):
+    """Pictures of the walls, to stand behind the fluid: their extent, and in the side view the section along
+    the middle of the fluid."""
+    if panel.view is OBLIQUE:
+        return [solid_layer(panel, scale, scene)]
+    layers = [flat_layer(panel, scale, scene, scene.walls, WALL_BEHIND)]
+    if panel.view is SIDE:
+        section = scene.walls[np.abs(scene.walls[:, 1] - scene.middle) < 0.8 * scene.spacing]
+        layers.append(flat_layer(panel, scale, scene, section, WALL_SECTION))
+    return layers
+
+
+def fluid_layer(panel, scale, scene, step, norm):
+    positions, speeds = scene.run.fluid.positions(step), 100 * scene.run.fluid.speeds(step)
+    canvas = Canvas(panel.box, scale)
+    canvas.splat(panel.view.project(positions), 0.5 * scene.spacing)
+    return canvas.picture(COLOURS(norm(speeds))[:, :3], 4 * scene.spacing, rim=0.3)
+
+
+def dress(axes, panel):
+    """Axes in millimetres; for the oblique view a bar of a round length instead."""
+    axes.set_aspect("equal")
+    axes.tick_params(labelsize=7, length=2.5, color="0.5", labelcolor="0.25")
+    for spine in axes.spines.values():
+        spine.set(color="0.6", linewidth=0.6)
+    axes.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
+    axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+    if panel.labels[1]:
+        axes.set_ylabel(panel.labels[1], fontsize=8, labelpad=1)
+    else:
+        axes.tick_params(labelleft=False)
+    if panel.view is not OBLIQUE:
+        return
+    axes.set(xticks=[], yticks=[])
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    left, right, bottom, _ = (1e3 * edge for edge in panel.box)
+    unit = 10 ** np.floor(np.log10((right - left) / 3))
+    length = unit * max(m for m in (1, 2, 5) if m * unit <= (right - left) / 3)
+    axes.plot([left, left + length], [bottom, bottom], color="0.2", linewidth=1.6, solid_capstyle="butt",
+              clip_on=False)
+    axes.annotate(f"{length:g} mm", (left + length / 2, bottom), (0, 3), textcoords="offset points",
+                  ha="center", va="bottom", fontsize=7, color="0.2")
+
+
+def panels_of(scene):
+    side = Panel(scene, SIDE, ("x  [mm]", "z  [mm]"))
+    if scene.run.dimensions == 2:
+        return [side]
+    return [side, Panel(scene, FRONT, ("y  [mm]", "")), Panel(scene, OBLIQUE, ("", ""))]
+
+
+def add_colour_bar(figure, norm, layout):
+    length = min(3.2, 0.6 * layout.width) / layout.width
+    axes = figure.add_axes([0.5 - length / 2, 1 - 0.5 / layout.height, length, 0.1 / layout.height])
+    bar = figure.colorbar(ScalarMappable(norm, COLOURS), cax=axes, orientation="horizontal", extend="max")
+    bar.outline.set_linewidth(0.4)
+    bar.ax.tick_params(labelsize=7, length=2, pad=1)
+    bar.set_label("speed  [cm/s]", fontsize=8, labelpad=1)
+
+
+class Layout:
+    """Where the panels stand in the figure, in inches: a row for each step, all to one scale."""
+
+    def __init__(self, panels, rows):
+        tallest = max(panel.size[1] for panel in panels)
+        self.scale = min(ROW_HEIGHT / tallest, WIDEST / max(panel.size[0] for panel in panels))  # inches a metre
+        self.row = self.scale * tallest
+        self.width = max(4.2, MARGIN + sum(self.scale * p.size[0] + GAP for p in panels) - GAP + 0.2)
+        self.height = HEAD + rows * (self.row + ROW_GAP) + LOWEST
+
+    def axes(self, figure, panel, left, row):
+        across, tall = self.scale * panel.size
+        top = self.height - HEAD - row * (self.row + ROW_GAP) - ROW_GAP
+        return figure.add_axes([left / self.width, (top - tall) / self.height, across / self.width,
+                                tall / self.height])
+
+
+def draw_row(figure, layout, scene, columns, row, norm):
+    left = MARGIN
+    for panel, behind in columns:
+        axes = layout.axes(figure, panel, left, row)
+        extent = [1e3 * edge for edge in panel.box]
+        for layer in behind + [fluid_layer(panel, layout.scale * DPI, scene, scene.steps[row], norm)]:
+            axes.imshow(layer, origin="lower", extent=extent, interpolation="none")
+        dress(axes, panel)
+        if left == MARGIN:
+            time = scene.run.fluid.times[scene.steps[row]]
+            axes.set_title(f"t = {time:.3g} s", loc="left", fontsize=9, pad=4)
+        if row == len(scene.steps) - 1:
+            axes.set_xlabel(panel.labels[0], fontsize=8, labelpad=1)
+        left += layout.scale * panel.size[0] + GAP
+
+
+def draw(run, steps, path):
+    """Writes the picture: a row for each step, a column for each view."""
+    scene = Scene(run, steps)
+    panels = panels_of(scene)
+    layout = Layout(panels, len(steps))
+    norm = Normalize(0, speed_limit(run, steps))
+    figure = plt.figure(figsize=(layout.width, layout.height), facecolor="white")
+    figure.text(0.5, 1 - 0.2 / layout.height, run.title.replace("_", " "), ha="center", va="center", fontsize=11)
+    add_colour_bar(figure, norm, layout)
+    columns = [(panel, wall_layers(panel, layout.scale * DPI, scene)) for panel in panels]
+    for row in range(len(steps)):
+        draw_row(figure, layout, scene, columns, row, norm)
+    figure.savefig(path, dpi=DPI)
+    plt.close(figure)

@@ -1,0 +1,121 @@
+// The linear system of a scene, on the host.
+#pragma once
+
+#include "linear_system.hpp"
+#include "predictor.hpp"
+#include "reference_viscous.hpp"
+#include "scene.hpp"
+
+namespace slagflow::testing_tools {
+
+// The system on the device, in the device's order of particles.
+struct DeviceSystem {
+  explicit DeviceSystem(Scene& s)
+      : predicted(s.context, "predicted", s.fluid.count),
+        diagonal(s.context, "diagonal", s.fluid.count),
+        right_hand_side(s.context, "right hand side", s.fluid.count),
+        wall(s.context, "walls", s.fluid.count),
+        length(s.context, "lengths", s.fluid.count),
+        link(s.context, "links", s.fluid_list.capacity()) {}
+
+  PredictorOutput output() {
+    return {predicted.span(), length.span(), link.span(),
+            diagonal.span(),  wall.span(),   right_hand_side.span()};
+  }
+  LinearSystem system(const Scene& s) const {
+    return {s.fluid.count,   ListView::stride(), s.fluid_list.view().slice,
+            slice_width,     length.span(),      link.span(),
+            diagonal.span(), wall.span(),        right_hand_side.span()};
+  }
+
+  Buffer<Quad> predicted, diagonal, right_hand_side;
+  Buffer<Symmetric3> wall;
+  Buffer<Index> length;
+  Buffer<Link> link;
+};
+
+// The same, downloaded and read in the order of ids.
+class HostSystem {
+ public:
+  HostSystem(Scene& s, const DeviceSystem& d)
+      : predicted(s.by_id(d.predicted.span())),
+        diagonal(s.by_id(d.diagonal.span())),
+        right_hand_side(s.by_id(d.right_hand_side.span())),
+        id_(download(s.context, s.fluid.id.span())),
+        slice_(download(s.context, s.fluid_list.view().slice)),
+        length_(download(s.context, d.length.span())),
+        link_(download(s.context, d.link.span())),
+        wall_(download(s.context, d.wall.span())),
+        device_diagonal_(download(s.context, d.diagonal.span())),
+        place_(id_.size()) {
+    for (std::size_t row = 0; row < id_.size(); ++row) place_[static_cast<std::size_t>(id_[row])] = row;
+  }
+
+  // (A u) of particle i; u in the order of ids.
+  Vec3 apply(std::size_t i, const std::vector<Quad>& u) const {
+    std::vector<Quad> by_row(u.size());
+    for (std::size_t k = 0; k < u.size(); ++k) by_row[place_[k]] = u[k];
+    return system().apply(static_cast<Index>(place_[i]), host_span(by_row));
+  }
+
+  reference::Dense dense() const {
+    const LinearSystem s = system();
+    reference::Dense a(3 * id_.size());
+    for (std::size_t row = 0; row < id_.size(); ++row) {
+      const auto i = static_cast<std::size_t>(id_[row]);
+      const auto number = static_cast<Index>(row);
+      const Symmetric3 b = wall_[row];
+      const Vec3 axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          a(3 * i + static_cast<std::size_t>(k), 3 * i + static_cast<std::size_t>(l)) =
+              static_cast<double>((b * axis[l])[k]) +
+              (k == l ? static_cast<double>(s.diagonal[number].w) : 0);
+      for (Index k = 0; k < s.length[number]; ++k) {
+        const Link link = s.link[s.row(number) + k * s.stride];
+        const auto j = static_cast<std::size_t>(id_[static_cast<std::size_t>(link.other)]);
+        const reference::Vec d = to_host(quad(link.s, 0));
+        reference::add_block(a, i, i, 1, d);
+        reference::add_block(a, i, j, -1, d);
+      }
+    }
+    return a;
+  }
+
+  double diagonal_entry(std::size_t i) const {
+    return static_cast<double>(xyz(diagonal[i / 3])[static_cast<int>(i % 3)]);
+  }
+
+  std::vector<Quad> predicted, diagonal, right_hand_side;
+
+ private:
+  LinearSystem system() const {
+    return {static_cast<Index>(id_.size()),
+            ListView::stride(),
+            host_span(slice_),
+            slice_width,
+            host_span(length_),
+            host_span(link_),
+            host_span(device_diagonal_),
+            host_span(wall_),
+            {}};
+  }
+
+  std::vector<Index> id_;
+  std::vector<Offset> slice_;
+  std::vector<Index> length_;
+  std::vector<Link> link_;
+  std::vector<Symmetric3> wall_;
+  std::vector<Quad> device_diagonal_;
+  std::vector<std::size_t> place_;
+};
+
+inline HostSystem assemble(Scene& scene, double dt, double theta) {
+  scene.upload();
+  DeviceSystem system(scene);
+  predict_and_assemble(scene.context, scene.pairs(), system.output(), static_cast<Real>(dt),
+                       static_cast<Real>(theta));
+  return {scene, system};
+}
+
+}  // namespace slagflow::testing_tools

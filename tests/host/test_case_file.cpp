@@ -1,0 +1,228 @@
+// Reading a case: values, defaults, overrides, and writing it back.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "backend/error.hpp"
+#include "host/case.hpp"
+
+namespace slagflow {
+namespace {
+
+const char* const minimal = R"(
+[case]
+name = "small"
+[resolution]
+spacing = 1e-3
+[fluid.oil]
+density = 965
+rheology = "newtonian"
+dynamic_viscosity = 0.1
+[[region]]
+shapes = [{shape="sphere", center=[0,0,0], radius=0.005}]
+[domain]
+min = [-0.01, -0.01, -0.01]
+max = [0.01, 0.01, 0.01]
+[output]
+end_time = 2
+)";
+
+const char* const rich = R"(
+[case]
+name = "rich"
+description = "quotes \" and\nlines \\ and a tab\t"
+[resolution]
+spacing = 0.0033333333333333335
+support_ratio = 2.1
+origin = [0.1, 0.2, 1e-7]
+[gravity]
+acceleration = [0.1, 0, -3]
+[body_force]
+acceleration = [0, 1e-300, 4]
+[fluid.zinc]
+density = 7000
+rheology = "newtonian"
+dynamic_viscosity = 3.1e-3
+[fluid.slag]
+density = 2600
+rheology = "bingham"
+plastic_viscosity = 2.25
+yield_stress = 2.3
+growth_exponent = 123.456789
+[[region]]
+fluid = "slag"
+shapes = [
+  {shape="box", min=[0,0,0], max=[0.1,0.1,0.1]},
+  {shape="cylinder", start=[0,0,0], end=[0,0,0.05], radius=0.02},
+]
+subtract = [{shape="sphere", center=[0.05,0.05,0.05], radius=0.01}]
+velocity = [1, 2, 3]
+angular_velocity = [0.1, 0, 0]
+center = [0, 0.5, 0]
+pressure = "zero"
+[[region]]
+fluid = "zinc"
+shapes = [{shape="plane", point=[0,0,-0.01], normal=[0,0.6,0.8]}]
+[[wall]]
+name = "ladle"
+slip = "free_slip"
+shapes = [{shape="box", min=[-1,-1,-1], max=[1,1,1], outside=true}]
+[domain]
+min = [-0.1, -0.1, -0.1]
+max = [0.1, 0.1, 0.2]
+periodic = ["x", "y"]
+departure = "stop"
+[numerics]
+solver = "sor"
+sound_speed = 12
+theta = 0.5
+tolerance = 1e-5
+max_iterations = 17
+[output]
+end_time = 0.3
+interval = 0.017
+walls = false
+[[measure]]
+name = "a"
+type = "front"
+direction = "+z"
+position = 0.1
+fraction = 0.3
+[[measure]]
+name = "b"
+type = "jet"
+lip = [0, 0, 0]
+outward = "-x"
+bottom = -0.1
+)";
+
+TEST(CaseFile, FillsInDefaults) {
+  const Case c = parse_case(minimal, "small.toml");
+  EXPECT_EQ(c.name, "small");
+  EXPECT_EQ(c.support_ratio, 2.6);
+  EXPECT_EQ(c.dimensions, 3);
+  EXPECT_TRUE(c.gravity == (Vec3d{0, 0, -9.81}));
+  EXPECT_EQ(c.regions.at(0).fluid, 0);
+  EXPECT_EQ(c.regions.at(0).pressure, InitialPressure::hydrostatic);
+  EXPECT_EQ(c.domain.departure, Departure::remove);
+  EXPECT_EQ(c.numerics.sound_speed, 0);
+  EXPECT_EQ(c.numerics.solver, ViscousSolver::conjugate_gradient);
+  EXPECT_DOUBLE_EQ(c.output.interval, 2.0 / 50);
+  EXPECT_DOUBLE_EQ(c.output.history_interval, 2.0 / 500);
+  EXPECT_TRUE(c.output.walls);
+  EXPECT_TRUE(c.walls.empty());
+}
+
+TEST(CaseFile, ReadsEveryTable) {
+  const Case c = parse_case(rich, "rich.toml");
+  ASSERT_EQ(c.fluids.size(), 2u);
+  EXPECT_EQ(c.fluids[0].name, "zinc");  // order of the file, not of the alphabet
+  EXPECT_EQ(c.fluids[1].parameters[2], 123.456789);
+  EXPECT_EQ(c.regions.at(0).fluid, 1);
+  EXPECT_EQ(c.regions.at(0).shapes.size(), 2u);
+  EXPECT_EQ(std::get<SphereSpec>(c.regions.at(0).subtract.at(0).form).radius, 0.01);
+  EXPECT_TRUE(c.walls.at(0).shapes.at(0).outside);
+  EXPECT_EQ(c.walls.at(0).slip, WallSlip::free_slip);
+  EXPECT_TRUE(c.domain.periodic[0] && c.domain.periodic[1] && !c.domain.periodic[2]);
+  EXPECT_EQ(c.domain.departure, Departure::stop);
+  EXPECT_EQ(c.numerics.solver, ViscousSolver::sor);
+  EXPECT_EQ(c.numerics.max_iterations, 17);
+  EXPECT_EQ(c.measures.at(0).direction.axis, 2);
+  EXPECT_EQ(c.measures.at(0).direction.sign, 1);
+  EXPECT_EQ(c.measures.at(1).outward.axis, 0);
+  EXPECT_EQ(c.measures.at(1).outward.sign, -1);
+  EXPECT_DOUBLE_EQ(c.output.history_interval, 0.0017);
+}
+
+TEST(CaseFile, KnowsWhereKeysStand) {
+  const Case c = parse_case(minimal, "small.toml", {"numerics.sound_speed=3"});
+  EXPECT_EQ(c.place_of("resolution.spacing"), "small.toml:5");
+  EXPECT_EQ(c.place_of("region.0.velocity"), "small.toml:10");
+  EXPECT_EQ(c.place_of("numerics.sound_speed"), "--set numerics.sound_speed=3");
+  EXPECT_EQ(c.place_of("wall.0"), "small.toml");
+}
+
+TEST(CaseFile, WrittenCaseIsTheSameCase) {
+  for (const char* text : {minimal, rich}) {
+    const Case c = parse_case(text, "a.toml");
+    const std::string written = to_toml(c);
+    const Case again = parse_case(written, "b.toml");
+    EXPECT_EQ(written, to_toml(again));
+    EXPECT_EQ(c.spacing, again.spacing);
+    EXPECT_EQ(c.description, again.description);
+    EXPECT_EQ(c.fluids.back().parameters, again.fluids.back().parameters);
+    EXPECT_EQ(c.numerics.sound_speed, again.numerics.sound_speed);
+    EXPECT_EQ(c.body_force.y, again.body_force.y);
+    EXPECT_EQ(c.measures.size(), again.measures.size());
+  }
+}
+
+TEST(CaseFile, WrittenCaseHoldsTheDefaults) {
+  const std::string written = to_toml(parse_case(minimal, "a.toml"));
+  for (const char* line :
+       {"support_ratio = 2.6", "sound_speed = \"auto\"", "anti_pairing = 0.1", "interval = 0.04",
+        "fluid = \"oil\"", "periodic = []", "departure = \"remove\"", "skin = 0.12"})
+    EXPECT_NE(written.find(line), std::string::npos) << line << "\n" << written;
+}
+
+TEST(CaseFile, OverridesReachTablesAndLists) {
+  const Case c =
+      parse_case(rich, "rich.toml",
+                 {"fluid.slag.yield_stress=5", "region.1.velocity=[0,0,-1]", "numerics.solver=jacobi",
+                  "wall.0.shapes.0.max=[1,1,2]", "fluid.new.density=1", "fluid.new.rheology=newtonian",
+                  "fluid.new.dynamic_viscosity=2", "case.name=other", "output.walls=true",
+                  "numerics.theta=0.75", "numerics.theta=1"});
+  EXPECT_EQ(c.fluids[1].parameters[1], 5);
+  EXPECT_EQ(c.regions[1].velocity.z, -1);
+  EXPECT_EQ(c.numerics.solver, ViscousSolver::jacobi);
+  EXPECT_EQ(std::get<BoxSpec>(c.walls[0].shapes[0].form).max.z, 2);
+  EXPECT_EQ(c.fluids.at(2).name, "new");
+  EXPECT_EQ(c.name, "other");
+  EXPECT_TRUE(c.output.walls);
+  EXPECT_EQ(c.numerics.theta, 1);  // the last one holds
+}
+
+TEST(CaseFile, ReadsEveryRheologyOfTheTable) {
+  for (const RheologyInfo& info : rheologies) {
+    std::string text = minimal;
+    const std::string old = "rheology = \"newtonian\"\ndynamic_viscosity = 0.1\n";
+    std::string keys = "rheology = \"" + std::string(info.name) + "\"\n";
+    for (int k = 0; k < info.parameter_count; ++k)
+      if (info.parameters[k].fallback < 0)
+        keys += std::string(info.parameters[k].key) + " = " + std::to_string(k + 1) + "\n";
+    text.replace(text.find(old), old.size(), keys);
+    const Case c = parse_case(text, "a.toml");
+    EXPECT_STREQ(c.fluids[0].info().name, info.name);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(info.parameter_count); ++k)
+      EXPECT_EQ(c.fluids[0].parameters[k],
+                info.parameters[k].fallback < 0 ? static_cast<double>(k + 1) : info.parameters[k].fallback);
+  }
+}
+
+TEST(CaseFile, StlPathsAreRelativeToTheCaseAndWrittenAbsolute) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "case_with_stl";
+  std::filesystem::create_directories(folder / "parts");
+  std::ofstream(folder / "parts" / "x.stl") << "solid\nendsolid\n";
+  std::string text = minimal;
+  text += "[[wall]]\nname='w'\nshapes=[{shape='stl', file='parts/x.stl', scale=1e-3}]\n";
+  std::ofstream(folder / "case.toml") << text;
+  const Case c = load_case((folder / "case.toml").string());
+  EXPECT_EQ(std::get<StlSpec>(c.walls[0].shapes[0].form).file, (folder / "parts" / "x.stl").string());
+  const Case moved = parse_case(to_toml(c), testing::TempDir() + "elsewhere/case.toml");
+  EXPECT_EQ(to_toml(moved), to_toml(c));
+}
+
+TEST(CaseFile, GravityDirectionIsItsLargestComponent) {
+  Case c;
+  c.gravity = {0, 0, -9.81};
+  EXPECT_EQ(down(c).axis, 2);
+  EXPECT_EQ(down(c).sign, -1);
+  c.gravity = {5, -8, 1};
+  EXPECT_EQ(down(c).axis, 1);
+  EXPECT_EQ(down(c).sign, -1);
+}
+
+}  // namespace
+}  // namespace slagflow

@@ -1,0 +1,208 @@
+// An independent slow oracle of the particle sums: loops over all pairs and all periodic images, double
+// precision. It shares no code with cuda/ on purpose: only the formulas are common. Units as in setup.hpp, SI
+// throughout.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace reference {
+
+struct Vec {
+  double x = 0, y = 0, z = 0;
+};
+
+inline Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec cross(Vec a, Vec b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec a) { return std::hypot(a.x, a.y, a.z); }
+
+constexpr double pi = 3.14159265358979323846;
+
+// Lucy's function, equation (1): integrates to one over the plane (2-D) or space (3-D), zero from r = h on.
+inline double lucy(double r, double h, int dimensions) {
+  const double q = r / h;
+  if (q >= 1) return 0;
+  const double front = dimensions == 2 ? 5 / (pi * std::pow(h, 2)) : 105 / (16 * pi * std::pow(h, 3));
+  return front * (1 + 3 * q) * std::pow(1 - q, 3);
+}
+
+// dW/dr by the product rule.
+inline double lucy_slope(double r, double h, int dimensions) {
+  const double q = r / h;
+  if (q >= 1) return 0;
+  const double front = dimensions == 2 ? 5 / (pi * std::pow(h, 3)) : 105 / (16 * pi * std::pow(h, 4));
+  return front * (3 * std::pow(1 - q, 3) - 3 * (1 + 3 * q) * std::pow(1 - q, 2));
+}
+
+struct Fluid {
+  double rest_density = 0;
+  double plastic_viscosity = 0, yield_stress = 0, growth_exponent = 1000;  // yield stress 0: Newtonian
+};
+
+// Equation (4) in long double, by its power series where the difference would cancel.
+inline long double viscosity(const Fluid& f, long double shear_rate) {
+  const long double x = f.growth_exponent * shear_rate;
+  const long double ratio = x < 1e-4L ? 1 - x / 2 + x * x / 6 - x * x * x / 24 : (1 - std::exp(-x)) / x;
+  return f.plastic_viscosity + f.yield_stress * f.growth_exponent * ratio;
+}
+
+struct Particle {
+  Vec x, v;
+  double excess = 0;  // density - rest density
+  double volume = 0, mass = 0, pressure = 0, viscosity = 0;
+  int fluid = 0;
+};
+
+struct Wall {
+  Vec x, v, normal;
+  double depth = 0, pressure = 0;
+  Vec back_normal;
+  double back_depth = 0;  // below the opposite face of a thin plate; 0: there is none
+  bool sticks = true;
+};
+
+struct World {
+  int dimensions = 3;
+  double spacing = 0, support = 0, sound_speed = 0;
+  double diffusion = 0.1, tension_limit = 0, anti_pairing = 0.1, correction = 1.05;
+  Vec gravity, body_acceleration;
+  Vec period;  // 0: an open axis
+  std::vector<Fluid> fluids;
+  std::vector<Particle> particles;
+  std::vector<Wall> walls;
+
+  const Fluid& kind(const Particle& p) const { return fluids[static_cast<std::size_t>(p.fluid)]; }
+  double density(const Particle& p) const { return kind(p).rest_density + p.excess; }
+  double wall_volume() const { return std::pow(spacing, dimensions); }
+  double softening() const { return 1e-6 * support * support; }
+};
+
+// A sum with the sum of its terms' sizes, by which rounding in the program under test is to be judged.
+struct Sum {
+  Vec value;
+  double size = 0;
+  void add(Vec term, double term_size) { value = value + term, size += term_size; }
+  void add(double term, double term_size) { add(Vec{term, 0, 0}, term_size); }
+};
+
+// Calls f(a - b) for every periodic image of b that is closer to a than `reach`.
+template <class F>
+void for_images(const World& w, Vec a, Vec b, double reach, F f) {
+  auto images = [](double period) { return period > 0 ? 1 : 0; };
+  for (int i = -images(w.period.x); i <= images(w.period.x); ++i)
+    for (int j = -images(w.period.y); j <= images(w.period.y); ++j)
+      for (int k = -images(w.period.z); k <= images(w.period.z); ++k) {
+        const Vec d = a - b - Vec{i * w.period.x, j * w.period.y, k * w.period.z};
+        if (length(d) < reach) f(d);
+      }
+}
+
+// Calls f(other particle, x_ij) for all others within the support.
+template <class F>
+void for_fluid_pairs(const World& w, std::size_t i, F f) {
+  for (std::size_t j = 0; j < w.particles.size(); ++j)
+    if (j != i)
+      for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) { f(w.particles[j], d); });
+}
+
+template <class F>
+void for_wall_pairs(const World& w, std::size_t i, F f) {
+  for (const Wall& wall : w.walls)
+    for_images(w, w.particles[i].x, wall.x, w.support, [&](Vec d) { f(wall, d); });
+}
+
+// (1/r) dW/dr; zero for coincident particles, between which nothing acts.
+inline double slope_over_distance(const World& w, double r) {
+  return r > 0 ? lucy_slope(r, w.support, w.dimensions) / r : 0;
+}
+
+// d rho_i/dt: continuity and density diffusion (numerics.md, section 0). Walls take part with the density
+// that their pressure has in the fluid's equation of state. Between fluids, what diffuses is the excess over
+// each one's rest density: otherwise their interface would.
+inline Sum density_rate(const World& w, std::size_t i) {
+  const Particle& p = w.particles[i];
+  const double c2 = w.sound_speed * w.sound_speed, rest = w.kind(p).rest_density;
+  const double strength = 2 * w.diffusion * (w.support / 2) * w.sound_speed;
+  Sum sum;
+  auto pair = [&](Vec d, double volume, Vec velocity, double excess) {
+    const double f = slope_over_distance(w, length(d));
+    const Vec slip = p.v - velocity;
+    sum.add(w.density(p) * volume * f * dot(slip, d), w.density(p) * volume * -f * length(slip) * length(d));
+    const double hydrostatic = rest * dot(w.gravity, -1 * d) / c2;
+    sum.add(strength * volume * -f * (excess - p.excess - hydrostatic),
+            strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(hydrostatic)));
+  };
+  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { pair(d, j.volume, j.v, j.excess); });
+  for_wall_pairs(w, i, [&](const Wall& j, Vec d) { pair(d, w.wall_volume(), j.v, j.pressure / c2); });
+  return sum;
+}
+
+// Morris' factor of a wall pair, for the face before which the fluid particle stands.
+inline double no_slip_factor(const World& w, const Wall& wall, Vec d) {
+  auto factor = [&](Vec normal, double depth) {
+    return std::min(3.0, 1 + depth / std::max(dot(d, normal) - depth, w.spacing / 4));
+  };
+  const bool before_back = wall.back_depth > 0 && dot(d, wall.back_normal) > wall.back_depth;
+  return before_back ? factor(wall.back_normal, wall.back_depth) : factor(wall.normal, wall.depth);
+}
+
+// gamma_i^2
+inline Sum shear_rate_squared(const World& w, std::size_t i) {
+  const Particle& p = w.particles[i];
+  Sum sum;
+  auto pair = [&](Vec d, double volume, Vec velocity) {
+    const double r2 = dot(d, d), weight = -slope_over_distance(w, length(d)) * volume / (r2 + w.softening());
+    const double factor = w.correction * (w.dimensions + 2) * weight;
+    sum.add(factor * std::pow(dot(p.v - velocity, d), 2), factor * dot(p.v - velocity, p.v - velocity) * r2);
+  };
+  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { pair(d, j.volume, j.v); });
+  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
+    if (j.sticks) pair(d, no_slip_factor(w, j, d) * w.wall_volume(), j.v);
+  });
+  return sum;
+}
+
+// Pressure that a wall particle takes from the fluid in reach.
+inline Sum wall_pressure(const World& w, const Wall& wall) {
+  Sum sum;
+  double weights = 0;
+  for (const Particle& p : w.particles)
+    for_images(w, wall.x, p.x, w.support, [&](Vec d) {
+      const double weight = lucy(length(d), w.support, w.dimensions), head = w.density(p) * dot(w.gravity, d);
+      weights += weight;
+      sum.add(weight * (p.pressure + head), weight * (std::fabs(p.pressure) + std::fabs(head)));
+    });
+  if (weights <= 0) return {};
+  return {{std::max(sum.value.x / weights, -w.tension_limit), 0, 0}, sum.size / weights};
+}
+
+// Acceleration by gravity, body force and pressure, with the term that keeps pairs apart.
+inline Sum acceleration(const World& w, std::size_t i) {
+  const Particle& p = w.particles[i];
+  const double own = p.pressure / std::pow(w.density(p), 2);
+  const double at_spacing = lucy(w.spacing, w.support, w.dimensions);
+  Sum sum;
+  sum.add(w.gravity + w.body_acceleration, length(w.gravity) + length(w.body_acceleration));
+  auto pair = [&](Vec d, double mass, double other) {
+    const double r = length(d), ratio = lucy(r, w.support, w.dimensions) / at_spacing;
+    const double pairing = w.anti_pairing * std::max(0.0, std::pow(ratio, 4) - 1);
+    const double sizes = std::fabs(own) + std::fabs(other);
+    const double f = slope_over_distance(w, r);
+    sum.add(-mass * (own + other + pairing * sizes) * f * d, mass * (1 + pairing) * sizes * -f * r);
+  };
+  for_fluid_pairs(w, i,
+                  [&](const Particle& j, Vec d) { pair(d, j.mass, j.pressure / std::pow(w.density(j), 2)); });
+  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
+    const double density = w.kind(p).rest_density + j.pressure / (w.sound_speed * w.sound_speed);
+    pair(d, p.mass, j.pressure / (density * density));
+  });
+  return sum;
+}
+
+}  // namespace reference

@@ -1,0 +1,192 @@
+"""Tests of scripts/plot on synthetic runs. With a test's name as argument only that one is run."""
+
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import h5py
+    import matplotlib.image
+    import numpy as np
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+
+PROJECT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(PROJECT / "scripts"))
+from plotting import history  # noqa: E402
+from plotting.run_folder import RunFolder, RunFolderError  # noqa: E402
+from plotting.splat import OVERSAMPLING, Canvas, View  # noqa: E402
+
+SPACING = 0.01
+HISTORY = "time_s,step,kinetic_energy_J,particles_in,iterations\n0,0,0,2,1\n0.1,5,0.02,2,3\n"
+
+
+def write_vtkhdf(path, times, positions, velocities):
+    """The parts of a VTKHDF PolyData file that hold points; `positions`, `velocities`: an array for each time."""
+    counts = np.array([len(p) for p in positions])
+    starts = np.cumsum(counts) - counts
+    with h5py.File(path, "w") as file:
+        root = file.create_group("VTKHDF")
+        root["NumberOfPoints"] = counts
+        root["Points"] = np.concatenate(positions)
+        root["PointData/Velocity"] = np.concatenate(velocities)
+        root["Steps/Values"] = np.asarray(times, float)
+        root["Steps/PointOffsets"] = starts
+        root["Steps"].attrs["NSteps"] = len(times)
+
+
+class Plot(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name) / "run"
+
+    def make_run(self, times, counts, dimensions=3):
+        """A run in which the `counts` particles stand in a row along x, at speed 1, 2, 3 .. m/s in z."""
+        self.folder.mkdir()
+        positions = [np.array([[SPACING * i, 0, 0] for i in range(n)]).reshape(-1, 3) for n in counts]
+        velocities = [np.array([[0, 0, 1.0 + i] for i in range(n)]).reshape(-1, 3) for n in counts]
+        write_vtkhdf(self.folder / "particles.vtkhdf", times, positions, velocities)
+        floor = np.array([[SPACING * i, 0, -SPACING] for i in range(9)])
+        write_vtkhdf(self.folder / "walls.vtkhdf", [0], [floor], [0 * floor])
+        (self.folder / "case.toml").write_text(
+            f'[case]\nname = "row"\n[resolution]\nspacing = {SPACING}\ndimensions = {dimensions}\n')
+        (self.folder / "history.csv").write_text(HISTORY)
+
+    def plot(self, *arguments):
+        return subprocess.run([PROJECT / "scripts/plot", *map(str, arguments)], capture_output=True, text=True)
+
+    def picture_size(self, name):
+        head = (self.folder / "pictures" / name).read_bytes()[:24]
+        self.assertEqual(head[:8], b"\x89PNG\r\n\x1a\n")
+        return struct.unpack(">II", head[16:])
+
+    def test_draws_both_pictures_and_names_them(self):
+        self.make_run([0, 0.1, 0.2], [5, 5, 5])
+        done = self.plot(self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout.split(), [str(self.folder / "pictures" / n) for n in ("flow.png", "history.png")])
+        self.assertGreater(self.picture_size("flow.png")[0], 600)
+        self.assertGreater(self.picture_size("history.png")[0], 600)
+
+    def test_the_fastest_particle_has_the_colour_of_the_maps_end(self):
+        self.make_run([0], [5])
+        self.assertEqual(self.plot(self.folder).returncode, 0)
+        picture = matplotlib.image.imread(self.folder / "pictures/flow.png")[..., :3]
+        yellow = np.all(np.abs(picture - (0.99, 0.91, 0.14)) < 0.1, axis=-1)  # viridis' upper end: the fastest
+        self.assertGreater(yellow.sum(), 100)
+
+    def test_each_time_asked_for_adds_a_row(self):
+        self.make_run([0, 0.1, 0.2, 0.3], [5, 5, 5, 5])
+        self.assertEqual(self.plot(self.folder, "--times", "0.1").returncode, 0)
+        one = self.picture_size("flow.png")[1]
+        self.assertEqual(self.plot(self.folder, "--times", "0,0.1,0.31").returncode, 0)
+        three = self.picture_size("flow.png")[1]
+        self.assertGreater(three, 1.5 * one)
+
+    def test_two_dimensions_have_the_side_view_only(self):
+        self.make_run([0, 0.1], [50, 50])
+        self.assertEqual(self.plot(self.folder).returncode, 0)
+        three = self.picture_size("flow.png")[0]
+        (self.folder / "case.toml").write_text(
+            f"[resolution]\nspacing = {SPACING}\ndimensions = 2\n")
+        self.assertEqual(self.plot(self.folder).returncode, 0)
+        self.assertLess(self.picture_size("flow.png")[0], three)
+
+    def test_run_without_particles_is_drawn(self):
+        self.make_run([0], [0])
+        done = self.plot(self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_pictures_go_where_asked(self):
+        self.make_run([0], [3])
+        target = self.folder.parent / "elsewhere"
+        self.assertEqual(self.plot(self.folder, "--output", target).returncode, 0)
+        self.assertTrue((target / "flow.png").is_file())
+        self.assertFalse((self.folder / "pictures").exists())
+
+    def test_wrong_folder_is_one_clear_error(self):
+        self.folder.mkdir()
+        for folder in (self.folder, self.folder / "none"):
+            done = self.plot(folder)
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn(str(folder), done.stderr)
+            self.assertFalse((folder / "pictures").exists())
+
+    def test_file_of_another_kind_is_one_clear_error(self):
+        self.make_run([0], [3])
+        (self.folder / "particles.vtkhdf").write_text("no HDF5")
+        done = self.plot(self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("particles.vtkhdf is not a VTKHDF file", done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_nearest_steps_are_taken_once_each(self):
+        self.make_run([0, 0.1, 0.2], [1, 1, 1])
+        self.assertEqual(RunFolder(self.folder).nearest_steps([0.19, 0.06, 0.11, 7]), [1, 2])
+
+    def test_typical_steps_end_while_fluid_is_left(self):
+        self.make_run([0, 0.1, 0.2, 0.3, 0.4, 0.5], [40, 40, 40, 20, 3, 0])
+        self.assertEqual(RunFolder(self.folder).typical_steps(3), [1, 2, 3])
+
+    def test_reader_takes_each_steps_own_particles(self):
+        self.make_run([0, 0.1], [2, 3])
+        fluid = RunFolder(self.folder).fluid
+        np.testing.assert_allclose(fluid.positions(1)[:, 0], [0, SPACING, 2 * SPACING])
+        np.testing.assert_allclose(fluid.speeds(1), [1, 2, 3])
+
+    def test_step_that_a_crash_cut_short_is_left_out(self):
+        self.make_run([0, 0.1, 0.2], [2, 2, 2])
+        with h5py.File(self.folder / "particles.vtkhdf", "a") as file:
+            file["VTKHDF/Steps"].attrs["NSteps"] = 2
+        self.assertEqual(RunFolder(self.folder).nearest_steps([0.2]), [1])
+
+    def test_history_takes_numbers_and_leaves_out_text(self):
+        self.make_run([0], [1])
+        (self.folder / "history.csv").write_text("time_s,front_m,class\n0,,wall-flow\n0.1,-0.5,free-jet\n")
+        columns = RunFolder(self.folder).history()
+        self.assertEqual(list(columns), ["time_s", "front_m"])
+        np.testing.assert_array_equal(columns["front_m"], [np.nan, -0.5])
+
+    def test_columns_of_the_same_front_are_one_curve(self):
+        front, other = np.array([0, np.nan, -1]), np.array([0, 2, 3])
+        curves = history.labelled({"a_front_m": front, "b_front_m": other, "jet_front_m": front.copy()})
+        self.assertEqual(set(curves), {"a, jet", "b"})
+        np.testing.assert_array_equal(curves["a, jet"], front)
+
+    def test_case_file_without_spacing_is_an_error(self):
+        self.make_run([0], [1])
+        (self.folder / "case.toml").write_text("[resolution]\n")
+        with self.assertRaisesRegex(RunFolderError, "spacing"):
+            RunFolder(self.folder)
+
+    def test_ball_has_its_true_size(self):
+        canvas = Canvas((-1, 1, -1, 1), 100)
+        canvas.splat(np.array([[0.0, 0, 0]]), 0.5)
+        area = (canvas.owner >= 0).sum() / (100 * OVERSAMPLING) ** 2
+        self.assertAlmostEqual(area, np.pi * 0.25, delta=0.01 * np.pi * 0.25)  # 1 %: pixels along the rim
+
+    def test_nearer_ball_hides_the_one_behind(self):
+        for order in ([0, 1], [1, 0]):
+            points = np.array([[0.0, 0, 1], [0.1, 0, 0]])[order]
+            canvas = Canvas((-1, 1, -1, 1), 50)
+            canvas.splat(points, 0.3)
+            row = column = 50 * OVERSAMPLING
+            self.assertEqual(canvas.owner[row, column + 2], order.index(0))
+
+    def test_oblique_view_is_a_rotation_with_z_up(self):
+        view = View.oblique(30, 20)
+        axes = np.stack([view.right, view.up, view.towards])
+        np.testing.assert_allclose(axes @ axes.T, np.eye(3), atol=1e-12)
+        np.testing.assert_allclose(np.linalg.det(axes), 1)
+        self.assertGreater(view.up[2], 0)
+        np.testing.assert_allclose(view.towards[2], np.sin(np.radians(20)))
+
+
+if __name__ == "__main__":
+    unittest.main()
