@@ -6,6 +6,17 @@ namespace slagflow {
 
 namespace {
 
+struct PairSums {
+  Real divergence = 0, diffusion = 0, shear = 0;
+};
+
+// Particle i as its pairs see it.
+struct Centre {
+  Vec3 place, velocity;
+  Real excess;       // density - rest density
+  Vec3 hydrostatic;  // gradient of the density at rest
+};
+
 // Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
 template <class Smoothing, class Box>
 struct DensityAndShear {
@@ -16,53 +27,56 @@ struct DensityAndShear {
   Span<Real> excess, shear_rate;
 
   HOST_DEVICE void operator()(Index i) const {
-    const Vec3 x = xyz(c.fluid.place[i]);
     const Quad motion = c.fluid.motion[i];
-    const Vec3 v = xyz(motion);
-    const FluidConstants& fluid = c.fluids[c.fluid.fluid[i]];
-    const Vec3 hydrostatic = (fluid.rest_density / c.flow.sound_speed_squared) * c.flow.gravity;
-    const Real h2 = square(c.flow.support);
-    Real divergence = 0, diffusion = 0, shear = 0;
+    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
+    const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w,
+                        (rest_density / c.flow.sound_speed_squared) * c.flow.gravity};
+    PairSums sums;
+    add_fluid(i, centre, sums);
+    add_walls(i, centre, sums);
+    const Real rate = (rest_density + motion.w) * sums.divergence + c.flow.diffusion * sums.diffusion;
+    excess[i] = motion.w + dt * rate;
+    shear_rate[i] = std::sqrt(c.flow.shear_factor * sums.shear);
+  }
 
+  HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
+    const Real h2 = square(c.flow.support);
     const Offset first = c.fluid_list.row(i);
-    for (Index k = 0; k < c.fluid_list.length[i]; ++k) {
+    const Index pairs = c.fluid_list.length[i];
+    for (Index k = 0; k < pairs; ++k) {
       const Index j = c.fluid_list.entry[first + k * ListView::stride()];
       const Quad there = c.fluid.place[j];
-      const Vec3 d = box.separation(x, xyz(there));
+      const Vec3 d = box.separation(centre.place, xyz(there));
       const Real r2 = dot(d, d);
       if (r2 >= h2) continue;
       const Quad other = c.fluid.motion[j];
       const Real weight = there.w * smoothing.gradient(std::sqrt(r2));
-      const Real approach = dot(v - xyz(other), d);
-      divergence += weight * approach;
-      diffusion -= weight * ((other.w - motion.w) + dot(hydrostatic, d));
-      shear -= weight * approach * approach / (r2 + c.flow.softening);
+      const Real approach = dot(centre.velocity - xyz(other), d);
+      sums.divergence += weight * approach;
+      sums.diffusion -= weight * ((other.w - centre.excess) + dot(centre.hydrostatic, d));
+      sums.shear -= weight * approach * approach / (r2 + c.flow.softening);
     }
-    walls(i, x, v, motion.w, hydrostatic, divergence, diffusion, shear);
-
-    const Real rate = (fluid.rest_density + motion.w) * divergence + c.flow.diffusion * diffusion;
-    excess[i] = motion.w + dt * rate;
-    shear_rate[i] = std::sqrt(c.flow.shear_factor * shear);
   }
 
-  HOST_DEVICE void walls(Index i, Vec3 x, Vec3 v, Real own_excess, Vec3 hydrostatic, Real& divergence,
-                         Real& diffusion, Real& shear) const {
+  HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
     const Offset first = c.wall_list.row(i);
-    for (Index k = 0; k < c.wall_list.length[i]; ++k) {
+    const Index pairs = c.wall_list.length[i];
+    for (Index k = 0; k < pairs; ++k) {
       const Index j = c.wall_list.entry[first + k * ListView::stride()];
-      const Vec3 d = box.separation(x, xyz(c.wall.place[j]));
+      const Vec3 d = box.separation(centre.place, xyz(c.wall.place[j]));
       const Real r2 = dot(d, d);
       if (r2 >= square(c.flow.support)) continue;
       const Quad other = c.wall.velocity[j];
       const Real weight = c.flow.wall_volume * smoothing.gradient(std::sqrt(r2));
-      const Real approach = dot(v - xyz(other), d);
-      divergence += weight * approach;
+      const Real approach = dot(centre.velocity - xyz(other), d);
+      sums.divergence += weight * approach;
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Real pressure = c.wall.pressure[j];
       if (pressure > -c.flow.tension_limit)
-        diffusion -= weight * ((pressure / c.flow.sound_speed_squared - own_excess) + dot(hydrostatic, d));
+        sums.diffusion -=
+            weight * ((pressure / c.flow.sound_speed_squared - centre.excess) + dot(centre.hydrostatic, d));
       const Real stick = other.w * no_slip_factor(d, c.wall.normal[j], c.wall.back[j], c.flow.spacing);
-      shear -= stick * weight * approach * approach / (r2 + c.flow.softening);
+      sums.shear -= stick * weight * approach * approach / (r2 + c.flow.softening);
     }
   }
 };

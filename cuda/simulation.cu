@@ -51,14 +51,15 @@ Simulation::State::State(const SimulationSetup& s)
       diagnostics(context),
       watch(context, s, static_cast<std::int64_t>(s.particles.position.size())) {
   departed.resize(s.fluids.size());
-  upload();
+  upload_fluid();
+  upload_walls();
   dt = acoustic_time_step(setup);
   rebuild();
   extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
+  update_density(context, pairs(), fluid, scratch, 0);  // viscosity and shear rate of the start
 }
 
-// Copies the particles to the device; only the numbers that go on are kept on the host.
-void Simulation::State::upload() {
+void Simulation::State::upload_fluid() {
   const auto& p = setup.particles;
   const std::size_t n = p.position.size();
   const auto constants = fluid_constants(setup);
@@ -66,7 +67,7 @@ void Simulation::State::upload() {
   std::vector<Vec3d> position(n);
   std::vector<Quad> place(n), motion(n);
   std::vector<Index> id(n);
-  std::vector<std::int64_t> start_by_fluid(setup.fluids.size());
+  std::vector<std::int64_t> count(setup.fluids.size());
   for (std::size_t i = 0; i < n; ++i) {
     const auto& f = constants[p.fluid[i]];
     const auto excess = static_cast<Real>(p.pressure[i] / c2);
@@ -74,10 +75,10 @@ void Simulation::State::upload() {
     place[i] = quad(to_real(position[i]), f.mass / (f.rest_density + excess));
     motion[i] = quad(to_real(p.velocity[i]), excess);
     id[i] = static_cast<Index>(i);
-    ++start_by_fluid[p.fluid[i]];
+    ++count[p.fluid[i]];
   }
-  for (std::size_t kind = 0; kind < start_by_fluid.size(); ++kind)
-    start_mass += static_cast<double>(start_by_fluid[kind]) * particle_mass(setup, kind);
+  for (std::size_t kind = 0; kind < count.size(); ++kind)
+    start_mass += static_cast<double>(count[kind]) * particle_mass(setup, kind);
   fluids.upload(constants);
   fluid.resize(static_cast<Index>(n));
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
@@ -87,24 +88,27 @@ void Simulation::State::upload() {
   fluid.state.upload(std::vector<Quad>(n));
   fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
   fluid.shear_rate.upload(std::vector<Real>(n));
+  setup.particles = {};  // from here on the device has them
+}
 
+void Simulation::State::upload_walls() {
   const auto& w = setup.walls;
-  const std::size_t m = w.position.size();
-  std::vector<Quad> wall_place(m), normal(m), back(m), velocity(m);
-  std::vector<Index> wall_id(m);
-  for (std::size_t i = 0; i < m; ++i) {
-    wall_place[i] = quad(to_real(w.position[i] - setup.domain.lower), 0);
+  const std::size_t n = w.position.size();
+  std::vector<Quad> place(n), normal(n), back(n), velocity(n);
+  std::vector<Index> id(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool sticks = setup.bodies[w.body[i]].slip == WallSlip::no_slip;
+    place[i] = quad(to_real(w.position[i] - setup.domain.lower), 0);
     normal[i] = quad(to_real(w.normal[i]), static_cast<Real>(w.depth[i]));
     if (!w.back_depth.empty()) back[i] = quad(to_real(w.back_normal[i]), static_cast<Real>(w.back_depth[i]));
-    velocity[i] = quad({}, setup.bodies[w.body[i]].slip == WallSlip::no_slip ? Real(1) : Real(0));
-    wall_id[i] = static_cast<Index>(i);
+    velocity[i] = quad({}, sticks ? Real(1) : Real(0));
+    id[i] = static_cast<Index>(i);
   }
-  wall.resize(static_cast<Index>(m));
-  wall.place.upload(wall_place), wall.normal.upload(normal), wall.back.upload(back),
-      wall.velocity.upload(velocity), wall.id.upload(wall_id);
-  wall.pressure.upload(std::vector<Real>(m));
+  wall.resize(static_cast<Index>(n));
+  wall.place.upload(place), wall.normal.upload(normal), wall.back.upload(back);
+  wall.velocity.upload(velocity), wall.id.upload(id);
+  wall.pressure.upload(std::vector<Real>(n));
   ordering.sort(wall);
-  setup.particles = {};
 }
 
 void Simulation::State::rebuild() {

@@ -40,7 +40,8 @@ struct Simulation::State {
   SolveReport report;
   SolverTotals solver;
 
-  void upload();
+  void upload_fluid();
+  void upload_walls();
   void rebuild();
   void build_lists();
   void rebuild_lists_as_saved();

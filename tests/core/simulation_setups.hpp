@@ -82,10 +82,12 @@ inline SimulationSetup tank(const FluidSetup& fluid) {
 inline SimulationSetup spinning_block(double rate) {
   SimulationSetup s = empty_setup({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
   s.gravity = {};
-  for (int n = 0; n < 1000; ++n) {
-    const Vec3d x{(n % 10 - 4.5) * dx, (n / 10 % 10 - 4.5) * dx, (n / 100 - 4.5) * dx};
-    add_particle(s, x, {rate * x.z, 0, -rate * x.x}, 0);
-  }
+  for (int k = 0; k < 10; ++k)
+    for (int j = 0; j < 10; ++j)
+      for (int i = 0; i < 10; ++i) {
+        const Vec3d x{(i - 4.5) * dx, (j - 4.5) * dx, (k - 4.5) * dx};
+        add_particle(s, x, {rate * x.z, 0, -rate * x.x}, 0);
+      }
   return s;
 }
 

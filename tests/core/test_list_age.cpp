@@ -230,6 +230,34 @@ TEST_F(ListAgeOf, AnApproachToAWallIsRefused) {
   EXPECT_FALSE(hold());
 }
 
+// In both cells a companion moves the other way, so that the cells' means stay and only the deviations tell.
+TEST_F(ListAgeOf, AnApproachAgainstTheMeansOfBothCellsIsRefused) {
+  const double apart = h + 1.01 * reach.fluid_skin, middle = 1.0 / 6;  // a border of cells
+  const double left = middle - apart / 2, right = middle + apart / 2;
+  start({{left, 0.3, 0.3}, {left, 0.3, 0.31}, {right, 0.3, 0.3}, {right, 0.3, 0.31}}, {});
+  move([&](Vec3d x) {
+    return Vec3d{(x.x < middle ? 1 : -1) * (x.z > 0.305 ? -1 : 1) * 0.52 * reach.fluid_skin, 0, 0};
+  });
+  ASSERT_EQ(missed_pairs(), 1);
+  EXPECT_FALSE(hold());
+}
+
+TEST_F(ListAgeOf, AnApproachToAWallFasterThanTheMeanIsRefused) {
+  const double apart = h + 1.01 * reach.wall_skin;
+  start({{0.5, 0.3, apart}, {0.51, 0.3, apart}}, {{0.5, 0.3, 0}});
+  move([](Vec3d x) { return Vec3d{0, 0, -0.26 * h + (x.x < 0.505 ? -0.05 : 0.05) * h}; });
+  ASSERT_EQ(missed_pairs(), 1);
+  EXPECT_FALSE(hold());
+}
+
+// Cells are a sixth wide: the pair starts on both sides of an empty one.
+TEST_F(ListAgeOf, AnApproachAcrossAnEmptyCellIsRefused) {
+  start({{0.166, 0.3, 0.3}, {0.334, 0.3, 0.3}}, {});
+  move([](Vec3d x) { return Vec3d{(x.x < 0.25 ? 1 : -1) * 0.16 * h, 0, 0}; });
+  ASSERT_EQ(missed_pairs(), 1);
+  EXPECT_FALSE(hold());
+}
+
 TEST_F(ListAgeOf, NothingHolds) {
   start({}, {});
   EXPECT_TRUE(hold());

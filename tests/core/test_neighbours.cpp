@@ -137,11 +137,13 @@ TEST_F(Neighbours, OutsideOfTheGridAreFound) {
 
 TEST_F(Neighbours, OnCellBordersAndCornersMatchBruteForce) {
   Space s;
-  s.reach = 0.125;
   Points points;
-  for (int i = 0; i < 512; ++i)
-    points.push_back({static_cast<Real>(i % 8 * 0.125), static_cast<Real>(i / 8 % 8 * 0.125),
-                      static_cast<Real>(i / 64 * 0.125)});
+  const auto step = Real(0.125);
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i)
+        points.push_back(
+            {step * static_cast<Real>(i), step * static_cast<Real>(j), step * static_cast<Real>(k)});
   s.reach = 0.126;
   check_self(s, points);
 }

@@ -205,6 +205,16 @@ TEST_F(OrderingOf, ResultDoesNotDependOnTheOrderBefore) {
   EXPECT_EQ(download(context_, fluid_.id.span()), first);
 }
 
+TEST_F(OrderingOf, OneCellGoesByIdWhateverTheOrderBefore) {
+  sort(random_particles(300, 0), {false, false, false});
+  ASSERT_FALSE(std::is_sorted(id_.begin(), id_.end()));
+  fluid_.position.upload(std::vector<Vec3d>(300, 0.5 * extent));
+  Ordering ordering(context_, extent, {false, false, false}, grid_);
+  ordering.sort(fluid_, departed_);
+  const auto ids = download(context_, fluid_.id.span());
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+}
+
 TEST(CellGrid, CellsAreAtLeastAsWideAsAsked) {
   for (double w : {0.1, 0.2, 0.24, 0.5, 3.0}) {
     const CellGrid grid = CellGrid::cover(extent, {false, true, false}, w);

@@ -1,4 +1,4 @@
-// The whole step: bookkeeping, repeatability, errors and what physics must keep.
+// The whole step: bookkeeping, repeatability and errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -287,9 +287,10 @@ TEST(Simulation, WithoutParticlesRuns) {
 
 TEST(Simulation, GoesOnWhenAllParticlesHaveLeft) {
   SimulationSetup setup = empty_setup({0, 0, 0}, {0.2, 0.2, 0.2});
-  for (int n = 0; n < 27; ++n)
-    add_particle(setup, {0.18 + 0.009 * (n % 3), 0.1 + dx * (n / 3 % 3), 0.1 + dx * (n / 9)}, {3, 0, 0},
-                 n % 2 ? 1 : 0);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i)
+        add_particle(setup, {0.18 + 0.009 * i, 0.1 + dx * j, 0.1 + dx * k}, {3, 0, 0}, i == 1 ? 1 : 0);
   Simulation simulation(setup);
   advance(simulation, 60);
   const Totals t = simulation.totals();
@@ -297,88 +298,6 @@ TEST(Simulation, GoesOnWhenAllParticlesHaveLeft) {
   EXPECT_EQ(t.departed[1], 27);
   EXPECT_NEAR(t.mass_left, t.mass_start, 1e-15);
   EXPECT_TRUE(read(simulation).position.empty());
-}
-
-// The radial operator lets a rigid body spin; a plain Laplacian would keep 4 % after 20 ms.
-TEST(Simulation, AFreeBinghamBlockKeepsItsAngularMomentum) {
-  Simulation simulation(spinning_block(5));
-  const double start = simulation.totals().angular_momentum.y;
-  ASSERT_GT(std::fabs(start), 1e-6);
-  while (simulation.time() < 0.02) simulation.step();
-  const Totals t = simulation.totals();
-  EXPECT_NEAR(t.angular_momentum.y / start, 1, 0.01);
-  EXPECT_LT(norm(t.momentum), 1e-4 * std::sqrt(2 * t.kinetic_energy * t.mass_in));
-}
-
-// Stirred oil slows down: kinetic, potential and dissipated energy together only fall, by what density
-// diffusion and the cut-off of tension take out. Elastic energy is not among the totals: the rest of the
-// balance is allowed 0.1 %.
-TEST(Simulation, AViscousTankOnlyLosesEnergy) {
-  SimulationSetup setup = tank(oil());
-  const double wave = 2 * reference::pi / 0.08;
-  for (std::size_t i = 0; i < setup.particles.position.size(); ++i) {
-    const Vec3d x = setup.particles.position[i];
-    setup.particles.velocity[i] = {0.3 * std::sin(wave * x.y), 0.3 * std::sin(wave * x.x), 0};
-  }
-  Simulation simulation(setup);
-  const Totals start = simulation.totals();
-  Totals last = start;
-  for (int k = 0; k < 60; ++k) {
-    simulation.step();
-    const Totals t = simulation.totals();
-    const double gained = t.kinetic_energy + t.potential_energy + t.dissipated_energy - start.kinetic_energy -
-                          start.potential_energy;
-    EXPECT_LT(gained, 1e-3 * start.kinetic_energy) << "step " << k;
-    EXPECT_GT(gained, -0.2 * start.kinetic_energy) << "step " << k;
-    EXPECT_GT(t.dissipated_energy, last.dissipated_energy);
-    EXPECT_LT(t.kinetic_energy, last.kinetic_energy);
-    last = t;
-  }
-  EXPECT_LT(last.kinetic_energy, 0.5 * start.kinetic_energy);
-  EXPECT_GT(last.dissipated_energy, 0.2 * start.kinetic_energy);
-}
-
-// Speeds against sqrt(g H) = 0.77 m/s: the lattice settles at first. Compression against rho g H / (rho c0^2)
-// = 3.7 %.
-TEST(Simulation, ATankAtRestStaysAtRest) {
-  for (const FluidSetup& fluid : {oil(), slag()}) {
-    Simulation simulation(tank(fluid));
-    advance(simulation, 60);
-    const Totals t = simulation.totals();
-    EXPECT_LT(t.max_speed, 0.01) << fluid.name;
-    EXPECT_NEAR(t.max_density_error, 0.0368, 0.1 * 0.0368) << fluid.name;
-    EXPECT_EQ(sum_of(t.departed), 0);
-  }
-}
-
-TEST(Simulation, ATankOfTwoDimensionsStaysAtRest) {
-  SimulationSetup setup = tank(oil()), flat = setup;
-  flat.dimensions = 2, flat.particles = {}, flat.walls = {};
-  flat.domain.lower.y = 0, flat.domain.upper.y = dx, flat.domain.periodic = {true, false, false};
-  for (std::size_t i = 0; i < setup.particles.position.size(); ++i) {
-    const Vec3d x = setup.particles.position[i];
-    if (x.y > dx) continue;
-    add_particle(flat, x, {}, 0);
-    flat.particles.pressure.back() = setup.particles.pressure[i];
-  }
-  for (std::size_t i = 0; i < setup.walls.position.size(); ++i)
-    if (setup.walls.position[i].y < dx)
-      add_wall(flat, setup.walls.position[i], setup.walls.normal[i], setup.walls.depth[i]);
-  Simulation simulation(flat);
-  advance(simulation, 60);
-  const Totals t = simulation.totals();
-  EXPECT_EQ(t.particles, 48);
-  EXPECT_NEAR(t.mass_in, 48 * 900 * dx * dx, 1e-9);
-  EXPECT_LT(t.max_speed, 0.01);
-  EXPECT_EQ(t.momentum.y, 0);
-}
-
-// Without a gravity or other force there is no gravity kick; the stop test falls back on the largest speed.
-TEST(Simulation, ARestingBlockWithoutForcesDoesNotMove) {
-  Simulation simulation(spinning_block(0));
-  advance(simulation, 5);
-  EXPECT_EQ(simulation.totals().max_speed, 0);
-  EXPECT_EQ(simulation.solver_totals().unconverged, 0);
 }
 
 }  // namespace
