@@ -60,14 +60,17 @@ FlowConstants flow_constants(const SimulationSetup& s) {
   flow.anti_pairing = static_cast<Real>(s.numerics.anti_pairing);
   flow.pairing_reference = 1 / smoothing.value(flow.spacing);
   const double correction = s.numerics.viscosity_correction;
-  flow.operator_factor = static_cast<Real>(2 * (s.dimensions + 2) * correction);
+  const bool radial = s.numerics.viscous_operator == ViscousOperator::radial;
+  flow.coupling = radial ? PairCoupling::radial : PairCoupling::isotropic;
+  flow.operator_factor = static_cast<Real>((radial ? 2 * (s.dimensions + 2) : 2) * correction);
   flow.shear_factor = static_cast<Real>((s.dimensions + 2) * correction);
   flow.softening = static_cast<Real>(1e-6 * h * h);
   return flow;
 }
 
 double particle_mass(const SimulationSetup& s, std::size_t kind) {
-  return s.fluids[kind].rest_density * particle_volume(s);
+  // 24 bits, so that the mass of up to 2^29 particles, and the sum of what is in and what left, are exact.
+  return static_cast<float>(s.fluids[kind].rest_density * particle_volume(s));
 }
 
 std::vector<FluidConstants> fluid_constants(const SimulationSetup& s) {

@@ -1,5 +1,5 @@
 // The linear system of the implicit viscous step, as the solvers see it: no smoothing functions, no rheology.
-//   (A u)_i = m_i u_i + B_i u_i + sum_j s_ij (s_ij . (u_i - u_j))
+//   (A u)_i = m_i u_i + B_i u_i + sum_j s_ij (s_ij . (u_i - u_j))    or, isotropic, |s_ij|^2 (u_i - u_j)
 // with s_ij = -s_ji, hence A symmetric and positive definite: A >= m.
 #pragma once
 
@@ -25,6 +25,7 @@ struct LinearSystem {
   Span<const Quad> diagonal;         // xyz: diagonal of A [kg], w: mass [kg]
   Span<const Symmetric3> wall;       // B_i [kg]
   Span<const Quad> right_hand_side;  // [kg m/s]
+  PairCoupling coupling = PairCoupling::radial;
 
   HOST_DEVICE Offset row(Index i) const { return slice[i / slice_width] + i % slice_width; }
 
@@ -36,7 +37,7 @@ struct LinearSystem {
     const Index n = length[i];
     for (Index k = 0; k < n; ++k) {
       const Link l = link[first + k * stride];
-      sum += l.s * dot(l.s, here - xyz(u[l.other]));
+      sum += couple(coupling, l.s, here - xyz(u[l.other]));
     }
     return sum;
   }
@@ -55,10 +56,10 @@ struct RelaxationRow {
     const Offset first = system.row(i);
     for (Index k = 0; k < system.length[i]; ++k) {
       const Link l = system.link[first + k * system.stride];
-      residual -= l.s * dot(l.s, here - xyz(u[l.other]));
-      block.add_outer(l.s);
+      residual -= couple(system.coupling, l.s, here - xyz(u[l.other]));
+      add_coupling(system.coupling, l.s, block);
     }
-    block.xx += mass, block.yy += mass, block.zz += mass;
+    block.add_diagonal(mass);
   }
 };
 

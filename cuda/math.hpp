@@ -81,6 +81,7 @@ struct Symmetric3 {
     xx += s.x * s.x, yy += s.y * s.y, zz += s.z * s.z;
     xy += s.x * s.y, xz += s.x * s.z, yz += s.y * s.z;
   }
+  HOST_DEVICE void add_diagonal(Real d) { xx += d, yy += d, zz += d; }
   HOST_DEVICE Vec3 operator*(Vec3 v) const {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }

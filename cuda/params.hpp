@@ -26,6 +26,20 @@ struct OpenBox {
   HOST_DEVICE Vec3 separation(Vec3 a, Vec3 b) const { return a - b; }
 };
 
+// How a pair of weight |s|^2 couples two velocities: along the line between the particles, or all components
+// alike.
+enum class PairCoupling { radial, isotropic };
+
+HOST_DEVICE inline Vec3 couple(PairCoupling coupling, Vec3 s, Vec3 difference) {
+  return coupling == PairCoupling::radial ? dot(s, difference) * s : dot(s, s) * difference;
+}
+HOST_DEVICE inline void add_coupling(PairCoupling coupling, Vec3 s, Symmetric3& block) {
+  if (coupling == PairCoupling::radial)
+    block.add_outer(s);
+  else
+    block.add_diagonal(dot(s, s));
+}
+
 struct FluidConstants {
   Real rest_density;  // [kg/m^3]
   Real mass;          // of a particle [kg]
@@ -44,9 +58,11 @@ struct FlowConstants {
   Real tension_limit = 0;        // [Pa]
   Real anti_pairing = 0;
   Real pairing_reference = 0;  // 1 / W(spacing)
-  Real operator_factor = 0;    // C_visc 2 (d + 2): pair weight of the radial viscous operator
-  Real shear_factor = 0;       // C_visc (d + 2): pair weight of the squared shear rate
-  Real softening = 0;          // 1e-6 h^2 [m^2], keeps coincident pairs finite
+  PairCoupling coupling = PairCoupling::radial;
+  Real operator_factor =
+      0;                  // C_visc 2 (d + 2) radial, C_visc 2 isotropic: pair weight of the viscous operator
+  Real shear_factor = 0;  // C_visc (d + 2): pair weight of the squared shear rate
+  Real softening = 0;     // 1e-6 h^2 [m^2], keeps coincident pairs finite
 };
 
 // Morris' no-slip: a wall particle at depth d_w below the surface stands for the velocity that makes the

@@ -24,6 +24,12 @@ struct PredictAndAssemble {
     return sum;
   }
 
+  HOST_DEVICE Vec3 pair_diagonal(Vec3 s) const {
+    if (c.flow.coupling == PairCoupling::radial) return {square(s.x), square(s.y), square(s.z)};
+    const Real weight = dot(s, s);
+    return {weight, weight, weight};
+  }
+
   HOST_DEVICE void operator()(Index i) const {
     const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
@@ -46,7 +52,7 @@ struct PredictAndAssemble {
       acceleration -= (other.w * pressure_term(own.x, other.x, r) * f) * d;
       const Real mean = 2 * own.y * other.y / (own.y + other.y);
       const Vec3 s = std::sqrt(-factor * mean * other.z * f / (r2 + c.flow.softening)) * d;
-      diagonal.x += square(s.x), diagonal.y += square(s.y), diagonal.z += square(s.z);
+      diagonal += pair_diagonal(s);
       out.link[at] = {s, j};
       at += ListView::stride();
     }
@@ -74,8 +80,8 @@ struct PredictAndAssemble {
       if (motion.w == 0) continue;
       const Real stick = no_slip_factor(d, c.wall.normal[j], c.wall.back[j], c.flow.spacing);
       const Vec3 s = std::sqrt(-factor * stick * f / (r2 + c.flow.softening)) * d;
-      block.add_outer(s);
-      drag += s * dot(s, xyz(motion));
+      add_coupling(c.flow.coupling, s, block);
+      drag += couple(c.flow.coupling, s, xyz(motion));
     }
     const Vec3 predicted = xyz(c.fluid.motion[i]) + dt * acceleration;
     diagonal += Vec3{block.xx, block.yy, block.zz};

@@ -19,9 +19,11 @@ struct PredictorOutput {
 
 //   u*_i = v_i + dt (g - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij) F_ij x_ij)
 //   pairing_ij = eps [(W(r)/W(dx))^4 - 1]_+ (|p_i|/rho_i^2 + |p_j|/rho_j^2)
-// and, with w_ij = C 2(d+2) eta_ij V_i V_j |F_ij| / r^2 (J. J. Monaghan's radial viscous term in the form of
-// M. Weiler et al., Comput. Graph. Forum 37 (2018) 135) and the harmonic mean eta_ij,
+// and, for the radial operator, with w_ij = C 2(d+2) eta_ij V_i V_j |F_ij| / r^2 (J. J. Monaghan's radial
+// viscous term in the form of M. Weiler et al., Comput. Graph. Forum 37 (2018) 135) and the harmonic mean
+// eta_ij,
 //   s_ij = sqrt(theta dt w_ij) x_ij.
+// The laplacian operator has w_ij = C 2 eta_ij V_i V_j |F_ij|, with |s_ij|^2 its share of the matrix.
 // Wall pairs weigh more by the no-slip factor and go into the block B_i. Needs theta > 0.
 void predict_and_assemble(Context&, const PairContext&, const PredictorOutput&, Real dt, Real theta);
 

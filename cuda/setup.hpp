@@ -51,6 +51,14 @@ struct DomainSetup {
   Departure departure = Departure::remove;
 };
 
+// radial: pair forces along the line between the particles, div(2 eta D); keeps angular momentum.
+// laplacian: div(eta grad v), as the paper's equation (2) is usually discretised; resists rigid rotation.
+enum class ViscousOperator { radial, laplacian };
+
+// On what the explicit part of Crank-Nicolson acts: the old velocity, or u* as equation (7) is printed, which
+// puts an error f dt/2 into the steady state.
+enum class ExplicitPart { old_velocity, predicted };
+
 enum class ViscousSolver { conjugate_gradient, sor, jacobi };
 
 struct NumericsSetup {
@@ -61,8 +69,10 @@ struct NumericsSetup {
   double tension_limit = 0;            // [Pa] >= 0, pressure is cut off at -tension_limit
   double anti_pairing = 0.1;           // epsilon of the term that keeps pairs apart
   double viscosity_correction = 1.05;  // takes out the operator's lattice bias
-  double theta = 1;                    // 1 backward Euler, 0.5 Crank-Nicolson
-  double skin = 0.12;                  // of the neighbour list, in support radii
+  ViscousOperator viscous_operator = ViscousOperator::radial;
+  ExplicitPart explicit_part = ExplicitPart::old_velocity;
+  double theta = 1;    // 1 backward Euler, 0.5 Crank-Nicolson
+  double skin = 0.12;  // of the neighbour list, in support radii
   ViscousSolver solver = ViscousSolver::conjugate_gradient;
   double tolerance = 1e-2;  // rms velocity error of the solve, in gravity kicks g dt
   int max_iterations = 200;

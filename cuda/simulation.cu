@@ -109,6 +109,8 @@ void Simulation::State::upload_walls() {
   wall.velocity.upload(velocity), wall.id.upload(id);
   wall.pressure.upload(std::vector<Real>(n));
   ordering.sort(wall);
+  setup.walls.normal = setup.walls.back_normal = {};
+  setup.walls.depth = setup.walls.back_depth = {};
 }
 
 void Simulation::State::rebuild() {

@@ -47,16 +47,16 @@ struct SquaredLength {
   }
 };
 
-// b -= (1 - theta)/theta [theta dt K v^k - wall part], with the matrix at hand: theta dt K v = A v - m v.
+// b -= (1 - theta)/theta [theta dt K v - wall part], v the old velocity or u*; theta dt K v = A v - m v.
 struct ExplicitHalf {
   LinearSystem system;
-  Span<const Quad> predicted, old_velocity;
+  Span<const Quad> predicted, velocity;
   Real ratio;
   Span<Quad> right_hand_side;
   HOST_DEVICE void operator()(Index i) const {
     const Real mass = system.diagonal[i].w;
     const Vec3 drag = xyz(right_hand_side[i]) - mass * xyz(predicted[i]);
-    const Vec3 viscous = system.apply(i, old_velocity) - mass * xyz(old_velocity[i]) - drag;
+    const Vec3 viscous = system.apply(i, velocity) - mass * xyz(velocity[i]) - drag;
     right_hand_side[i] = quad(xyz(right_hand_side[i]) - ratio * viscous, 0);
   }
 };
@@ -82,9 +82,9 @@ void ViscousStep::resize(Index count, Offset pair_capacity) {
 }
 
 LinearSystem ViscousStep::system(const PairContext& c) const {
-  return {c.fluid.count,    ListView::stride(), c.fluid_list.slice,
-          slice_width,      length_.span(),     link_.span(),
-          diagonal_.span(), wall_.span(),       right_hand_side_.span()};
+  return {c.fluid.count,           ListView::stride(), c.fluid_list.slice, slice_width,
+          length_.span(),          link_.span(),       diagonal_.span(),   wall_.span(),
+          right_hand_side_.span(), c.flow.coupling};
 }
 
 SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
@@ -100,9 +100,11 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
   }
   Section timer(context_, "viscous solve");
   const LinearSystem matrix = system(c);
+  const bool as_printed = numerics_.explicit_part == ExplicitPart::predicted;
+  const Span<const Quad> explicit_velocity = as_printed ? predicted_.span() : fluid.motion.span();
   if (theta < 1)
     launch(context_, "explicit half", n,
-           ExplicitHalf{matrix, predicted_.span(), fluid.motion.span(), (1 - theta) / theta,
+           ExplicitHalf{matrix, predicted_.span(), explicit_velocity, (1 - theta) / theta,
                         right_hand_side_.span()});
   SolveResult result = solve_for_increment(matrix, rows, step, fluid.increment);
   launch(context_, "add increment", n,

@@ -1,5 +1,7 @@
 // The implicit viscous step: owns the linear system and its solution.
-//   m u_i + theta dt K u = m u*_i - (1 - theta) dt K v^k,  K the radial pair operator (predictor.hpp)
+//   m u_i + theta dt K u = m u*_i - (1 - theta) dt K v,  K the pair operator (predictor.hpp), v the old
+//   velocity
+// or, as the paper prints it, u*
 #pragma once
 
 #include "predictor.hpp"

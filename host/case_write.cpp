@@ -107,6 +107,8 @@ void write_numerics(std::ostream& out, const Case& c) {
       << "\ncourant = " << show(n.courant) << "\nmax_time_step = " << show(n.max_time_step)
       << "\ndensity_diffusion = " << show(n.density_diffusion)
       << "\ntension_limit = " << show(n.tension_limit) << "\nanti_pairing = " << show(n.anti_pairing)
+      << "\noperator = " << name_of(operator_names, n.viscous_operator)
+      << "\nexplicit_part = " << name_of(explicit_names, n.explicit_part)
       << "\nviscosity_correction = " << show(n.viscosity_correction) << "\ntheta = " << show(n.theta)
       << "\nsolver = " << name_of(solver_names, n.solver) << "\ntolerance = " << show(n.tolerance)
       << "\nmax_iterations = " << n.max_iterations << "\nrelaxation = " << show(n.relaxation)
