@@ -49,7 +49,7 @@ struct FluidSpec {
   std::string name;
   double density = 0;  // [kg/m^3]
   RheologyKind rheology = RheologyKind::newtonian;
-  std::array<double, 4> parameters{};  // in the order of RheologyInfo::parameters
+  std::array<double, most_parameters> parameters{};  // in the order of RheologyInfo::parameters
 
   const RheologyInfo& info() const { return rheologies[static_cast<std::size_t>(rheology)]; }
 };
@@ -76,6 +76,8 @@ struct OutputSpec {
   double interval = 0;          // [s] between snapshots
   double history_interval = 0;  // [s] between lines of the history
   bool walls = true;            // write the wall particles
+  // [s] of wall time between checkpoints; 0: only at the end and on signals
+  double checkpoint_interval = 300;
 };
 
 enum class MeasureType { front, jet };

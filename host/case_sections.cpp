@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "host/suspension.hpp"
+
 namespace slagflow {
 
 const std::vector<std::string> kernel_names{"lucy"};
@@ -70,7 +72,12 @@ FluidSpec read_fluid(CaseTable& t, const std::string& name) {
   fluid.name = name;
   if (!is_plain_name(name) || name.find('.') != std::string::npos)
     t.problem("", "the name of a fluid: allowed: up to 100 of letters, digits, _ -");
-  t.read("density", fluid.density, above(0, "kg/m^3"), Need::required);
+  const bool suspended = is_suspension(t);
+  SuspensionSpec suspension;
+  if (suspended)
+    suspension = read_suspension(t, fluid);
+  else
+    t.read("density", fluid.density, above(0, "kg/m^3"), Need::required);
   std::vector<std::string> names;
   for (const RheologyInfo& info : rheologies) names.push_back(info.name);
   if (!t.read_enum("rheology", fluid.rheology, names, Need::required)) return fluid;
@@ -78,9 +85,13 @@ FluidSpec read_fluid(CaseTable& t, const std::string& name) {
     const ParameterInfo& parameter = fluid.info().parameters[k];
     double& value = fluid.parameters[static_cast<std::size_t>(k)];
     value = parameter.fallback;
-    const Range range = parameter.lower_allowed ? at_least(parameter.lower, parameter.unit)
-                                                : above(parameter.lower, parameter.unit);
-    t.read(parameter.key, value, range, parameter.fallback < 0 ? Need::required : Need::optional);
+    if (suspended && parameter.role == ParameterRole::viscosity)
+      read_raised(t, suspension, parameter, value);
+    else if (suspended && parameter.role == ParameterRole::yield_stress)
+      read_yield_stress(t, suspension, parameter, value);
+    else
+      t.read(parameter.key, value, range_of(parameter),
+             parameter.fallback < 0 ? Need::required : Need::optional);
   }
   t.finish();
   return fluid;
@@ -227,6 +238,7 @@ void read_output(CaseTable& top, Case& c) {
   t.read("history_interval", c.output.history_interval,
          timed ? at_least(c.output.end_time / most_lines, "s") : above(0, "s"));
   t.read("walls", c.output.walls);
+  t.read("checkpoint_interval", c.output.checkpoint_interval, at_least(0, "s"));
   t.finish();
 }
 

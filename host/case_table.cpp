@@ -150,6 +150,16 @@ std::string CaseTable::key_path(const std::string& key) const {
 
 bool CaseTable::has(const char* key) const { return table_ && table_->as_table().count(key) > 0; }
 
+bool CaseTable::is_list(const char* key) const { return has(key) && table_->as_table().at(key).is_array(); }
+
+void CaseTable::accept(const char* key) { find(key, Need::optional, ""); }
+
+void CaseTable::refuse(const char* key, const std::string& reason) {
+  if (!has(key)) return;
+  accept(key);
+  problem(key, "does not go with the other keys: " + reason);
+}
+
 void CaseTable::problem(const std::string& key, const std::string& what) {
   problems_->add(key.empty() ? path_ : key_path(key), what);
 }
@@ -227,6 +237,22 @@ bool CaseTable::read(const char* key, std::vector<std::string>& target) {
     strings.push_back(entry.as_string().str);
   }
   target = strings;
+  return true;
+}
+
+bool CaseTable::read(const char* key, std::vector<std::array<double, 2>>& target,
+                     const std::string& allowed) {
+  const Toml* value = find(key, Need::optional, allowed);
+  if (!value) return false;
+  if (!value->is_array()) return wrong_type(key, *value, allowed);
+  std::vector<std::array<double, 2>> rows;
+  for (const Toml& row : value->as_array()) {
+    rows.emplace_back();
+    if (!row.is_array() || row.as_array().size() != 2 || !number_of(row.as_array()[0], rows.back()[0]) ||
+        !number_of(row.as_array()[1], rows.back()[1]))
+      return wrong_type(key, *value, allowed);
+  }
+  target = rows;
   return true;
 }
 

@@ -1,6 +1,7 @@
 // Typed reading of one table of a case file. What is wrong is collected, so that one pass reports it all.
 #pragma once
 
+#include <array>
 #include <initializer_list>
 #include <limits>
 #include <map>
@@ -73,6 +74,8 @@ class CaseTable {
   bool read(const char* key, bool& target);
   bool read(const char* key, std::string& target, Need need = Need::optional);
   bool read(const char* key, std::vector<std::string>& target);
+  // Rows of two numbers each; `allowed` is for the message.
+  bool read(const char* key, std::vector<std::array<double, 2>>& target, const std::string& allowed);
   // Whether the key holds this word.
   bool says(const char* key, const std::string& word);
   bool read_integer(const char* key, int& target, int lower, int upper);
@@ -96,6 +99,11 @@ class CaseTable {
   std::vector<std::pair<std::string, CaseTable>> named_tables(const char* key, Need need);
 
   bool has(const char* key) const;
+  bool is_list(const char* key) const;
+  // Lets finish() pass over a key that could not be read because of another one's fault.
+  void accept(const char* key);
+  // Reports the key, if it is given, as one that does not go with the others.
+  void refuse(const char* key, const std::string& reason);
   const std::string& path() const { return path_; }
   std::string key_path(const std::string& key) const;
   void problem(const std::string& key, const std::string& what);

@@ -136,7 +136,7 @@ std::string to_toml(const Case& c) {
   write_numerics(out, c);
   out << "[output]\nend_time = " << show(c.output.end_time) << "\ninterval = " << show(c.output.interval)
       << "\nhistory_interval = " << show(c.output.history_interval) << "\nwalls = " << text_of(c.output.walls)
-      << "\n";
+      << "\ncheckpoint_interval = " << show(c.output.checkpoint_interval) << "\n";
   for (const MeasureSpec& measure : c.measures) write_measure(out, measure);
   return out.str();
 }

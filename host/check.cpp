@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <string_view>
 
 namespace slagflow {
 namespace {
@@ -54,10 +53,11 @@ void add_speed(CaseCheck& check, const SimulationSetup& setup) {
   check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start";
 }
 
-double yield_stress(const Rheology& rheology) {
+// The parameter that plays a role; 0 where there is none.
+double parameter_of(const Rheology& rheology, ParameterRole role) {
   const RheologyInfo& info = rheology.info();
   for (int k = 0; k < info.parameter_count; ++k) {
-    if (std::string_view(info.parameters[k].key) == "yield_stress") return rheology.parameters[k];
+    if (info.parameters[k].role == role) return rheology.parameters[k];
   }
   return 0;
 }
@@ -65,13 +65,13 @@ double yield_stress(const Rheology& rheology) {
 void add_numbers(CaseCheck& check, const SimulationSetup& setup) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   for (const FluidSetup& fluid : setup.fluids) {
-    const double eta = fluid.rheology.parameters[0];
+    const double eta = parameter_of(fluid.rheology, ParameterRole::viscosity);
+    const double yield_stress = parameter_of(fluid.rheology, ParameterRole::yield_stress);
     const double g = norm(setup.gravity);
     FluidNumbers numbers;
     numbers.name = fluid.name;
     numbers.reynolds = check.speed > 0 ? fluid.rest_density * check.speed * check.width / eta : unknown;
-    numbers.bingham =
-        check.speed > 0 ? yield_stress(fluid.rheology) * check.width / (eta * check.speed) : unknown;
+    numbers.bingham = check.speed > 0 ? yield_stress * check.width / (eta * check.speed) : unknown;
     numbers.dam = g > 0 ? fluid.rest_density * check.width * std::sqrt(g * check.depth) / eta : unknown;
     check.fluids.push_back(numbers);
   }

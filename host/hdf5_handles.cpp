@@ -114,11 +114,31 @@ File File::open(const std::string& path, Access access) {
   return file;
 }
 
+File File::create_in_memory(const std::string& path) {
+  keep_library_out_of_exit();
+  constexpr std::size_t growth = std::size_t{1} << 22;  // [bytes]
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access, growth, false);
+  File file(Handle(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose), path);
+  if (file.id() < 0) file.fail("create");
+  return file;
+}
+
 void File::fail(const std::string& action) const {
   throw Error("cannot " + action + " " + path_ + ": " + reason_of_hdf5());
 }
 
 void File::flush() const { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write to"); }
+
+void File::claim_all_bytes() const { check(H5Fincrement_filesize(file_, 0), "extend"); }
+
+std::vector<std::byte> File::image() const {
+  flush();
+  const auto size = check(H5Fget_file_image(file_, nullptr, 0), "take the bytes of");
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  check(H5Fget_file_image(file_, bytes.data(), bytes.size()), "take the bytes of");
+  return bytes;
+}
 
 void File::close() {
   if (!file_.close()) fail("write to");
@@ -136,6 +156,21 @@ Handle open_group(const File& file, const std::string& path) {
 
 Handle open_dataset(const File& file, const std::string& path) {
   return Handle(file.check(H5Dopen2(file.id(), path.c_str(), H5P_DEFAULT), "read"), H5Dclose);
+}
+
+std::vector<std::string> members(const File& file, const std::string& path) {
+  std::vector<std::string> names;
+  const Handle group = open_group(file, path);
+  H5G_info_t info{};
+  file.check(H5Gget_info(group, &info), "read");
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    std::array<char, 256> name{};
+    file.check(
+        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT),
+        "read");
+    names.emplace_back(name.data());
+  }
+  return names;
 }
 
 void write_text(const File& file, hid_t object, const char* name, const std::string& text) {

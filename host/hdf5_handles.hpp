@@ -4,6 +4,7 @@
 
 #include <hdf5.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -57,6 +58,8 @@ class File {
 
   static File create(const std::string& path);  // replaces an existing file
   static File open(const std::string& path, Access access);
+  // In memory alone; `path` is for its errors.
+  static File create_in_memory(const std::string& path);
 
   hid_t id() const { return file_; }
   const std::string& path() const { return path_; }
@@ -71,6 +74,10 @@ class File {
   }
 
   void flush() const;
+  // After a crash the file may refer to places beyond the end that it knows of, and would fill them a second
+  // time: from now on it ends where it ends on disk.
+  void claim_all_bytes() const;
+  std::vector<std::byte> image() const;  // the bytes of the file as it is now
   void close();
 
  private:
@@ -83,6 +90,7 @@ class File {
 Handle create_group(const File& file, const std::string& path);
 Handle open_group(const File& file, const std::string& path);
 Handle open_dataset(const File& file, const std::string& path);
+std::vector<std::string> members(const File& file, const std::string& path);  // names in a group
 
 // Attributes. Text is of variable length, so a long one needs no more than a reference in the header.
 void write_text(const File& file, hid_t object, const char* name, const std::string& text);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <numeric>
 
 #include "backend/error.hpp"
@@ -20,27 +21,56 @@ std::string number(double value) {
   return text.data();
 }
 
+std::string header(const std::vector<std::string>& columns) {
+  std::string line;
+  for (const std::string& column : columns) line += (line.empty() ? "" : ",") + column;
+  return line + '\n';
+}
+
+// Throws Error unless the file has this header and at least the bytes up to the end.
+void require_begins_with(const std::string& path, const std::string& header, const HistoryEnd& end) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) throw Error("cannot read " + path + ": " + std::strerror(errno));
+  const auto size = static_cast<std::int64_t>(file.tellg());
+  if (size < end.bytes || end.bytes < static_cast<std::int64_t>(header.size()))
+    throw Error(path + ": holds " + std::to_string(size) + " bytes where the checkpoint knows of " +
+                std::to_string(end.bytes));
+  std::string present(header.size(), '\0');
+  file.seekg(0).read(present.data(), static_cast<std::streamsize>(present.size()));
+  if (present != header) throw Error(path + ": has other columns than the run");
+}
+
 }  // namespace
 
 HistoryFile::HistoryFile(std::string path, std::vector<std::string> columns)
     : path_(std::move(path)), columns_(columns.size()), file_(path_, std::ios::trunc) {
-  for (std::size_t k = 0; k < columns.size(); ++k) file_ << (k > 0 ? "," : "") << columns[k];
-  file_ << '\n';
-  require_written();
+  put(header(columns));
+}
+
+HistoryFile::HistoryFile(std::string path, std::vector<std::string> columns, const HistoryEnd& end)
+    : path_(std::move(path)), columns_(columns.size()), end_(end) {
+  require_begins_with(path_, header(columns), end);
+  std::error_code failed;
+  std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(end.bytes), failed);
+  if (failed) throw Error("cannot cut " + path_ + ": " + failed.message());
+  file_.open(path_, std::ios::app);
+  if (!file_) throw Error("cannot write to " + path_ + ": " + std::strerror(errno));
 }
 
 void HistoryFile::write(const std::vector<double>& values) {
   if (values.size() != columns_)
     throw Error(path_ + ": " + std::to_string(values.size()) + " values for " + std::to_string(columns_) +
                 " columns");
-  for (std::size_t k = 0; k < values.size(); ++k) file_ << (k > 0 ? "," : "") << number(values[k]);
-  file_ << '\n';
-  require_written();
+  std::string line;
+  for (std::size_t k = 0; k < values.size(); ++k) line += (k > 0 ? "," : "") + number(values[k]);
+  put(line + '\n');
+  ++end_.lines;
 }
 
-void HistoryFile::require_written() {
-  file_.flush();
+void HistoryFile::put(const std::string& line) {
+  file_ << line << std::flush;
   if (!file_) throw Error("cannot write to " + path_ + ": " + std::strerror(errno));
+  end_.bytes += static_cast<std::int64_t>(line.size());
 }
 
 std::vector<std::string> history_columns() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backend/error.hpp"
+#include "host/checkpoint.hpp"
 #include "host/hdf5_handles.hpp"
 #include "host/vtkhdf.hpp"
 
@@ -27,19 +28,6 @@ std::vector<std::int64_t> integers(const File& file, const std::string& path, st
   std::vector<std::int64_t> values(static_cast<std::size_t>(count));
   read_rows(file, open_dataset(file, path), {0, values.size()}, H5T_NATIVE_INT64, values.data());
   return values;
-}
-
-std::vector<std::string> members(const File& file, const std::string& path) {
-  std::vector<std::string> names;
-  const Handle group = open_group(file, path);
-  H5G_info_t info{};
-  file.check(H5Gget_info(group, &info), "read");
-  for (hsize_t i = 0; i < info.nlinks; ++i) {
-    std::array<char, 256> name{};
-    H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, i, name.data(), name.size(), H5P_DEFAULT);
-    names.emplace_back(name.data());
-  }
-  return names;
 }
 
 struct Steps {
@@ -93,9 +81,9 @@ std::string steps_line(const Steps& steps) {
 }
 
 // All texts but the case itself, which is long.
-std::string provenance_lines(const File& file) {
+std::string provenance_lines(const std::vector<std::pair<std::string, std::string>>& texts) {
   std::string text;
-  for (const auto& [name, value] : read_texts(file, open_group(file, "/VTKHDF"))) {
+  for (const auto& [name, value] : texts) {
     if (name != "case_text" && name != "Type") text += name + ": " + value + "\n";
   }
   return text;
@@ -109,11 +97,30 @@ std::string describe(const File& file) {
   read_rows(file, open_dataset(file, "/VTKHDF/Steps/Values"), {0, steps.times.size()}, H5T_NATIVE_DOUBLE,
             steps.times.data());
 
-  std::string text = file.path() + "\n" + provenance_lines(file) + steps_line(steps) + "arrays:\n";
+  std::string text = file.path() + "\n" + provenance_lines(read_texts(file, open_group(file, "/VTKHDF"))) +
+                     steps_line(steps) + "arrays:\n";
   text += array_line(file, "Points", "/VTKHDF/Points", "/VTKHDF/Steps/PointOffsets", steps);
   for (const std::string& name : members(file, "/VTKHDF/PointData"))
     text +=
         array_line(file, name, "/VTKHDF/PointData/" + name, "/VTKHDF/Steps/PointDataOffsets/" + name, steps);
+  return text;
+}
+
+bool is_checkpoint(const File& file) { return H5Lexists(file.id(), "simulation", H5P_DEFAULT) > 0; }
+
+std::string describe_checkpoint(const std::string& path) {
+  const Checkpoint checkpoint = read_checkpoint(path);
+  const RunRecord& run = checkpoint.run;
+  std::string text = path + "\n" + provenance_lines(checkpoint.texts);
+  text += "time: " + number(run.time) + " s, step " + std::to_string(run.steps) +
+          "\nwall time: " + number(run.wall_time) + " s, resumed " + std::to_string(run.resumes) +
+          " times\nwritten by then: " + std::to_string(run.history_lines) + " lines of history, " +
+          std::to_string(run.snapshots) + " time steps\narrays, all sound:\n";
+  for (const SavedArray& array : checkpoint.state)
+    text += "  " + array.name +
+            std::string(std::max<std::size_t>(14, array.name.size() + 1) - array.name.size(), ' ') +
+            std::to_string(array.bytes.size() / array.element_size) + " of " +
+            std::to_string(array.element_size) + " bytes\n";
   return text;
 }
 
@@ -123,11 +130,12 @@ std::string describe_file(const std::string& path) {
   const hdf5::QuietErrors quiet;
   if (!std::filesystem::exists(path)) throw InputError(path + ": no such file");
   try {
-    return describe(File::open(path, File::Access::read));
+    const File file = File::open(path, File::Access::read);
+    return is_checkpoint(file) ? describe_checkpoint(path) : describe(file);
   } catch (const InputError&) {
     throw;
   } catch (const Error& error) {
-    throw InputError(path + ": is no .vtkhdf file of a run: " + error.what());
+    throw InputError(path + ": is no sound .vtkhdf file or checkpoint of a run: " + error.what());
   }
 }
 

@@ -1,12 +1,13 @@
-// What a .vtkhdf file of a run holds, and where it came from.
+// What a .vtkhdf file or a checkpoint of a run holds, and where it came from.
 #pragma once
 
 #include <string>
 
 namespace slagflow {
 
-// For people: provenance, time steps, particles, and each array with its unit and range over all steps.
-// Throws InputError naming the file: it is missing, no HDF5 file, or holds no points with time steps.
+// For people: provenance, time steps, particles, and each array with its unit and range over all steps; of a
+// checkpoint where the run stood.
+// Throws InputError naming the file: it is missing, damaged, or neither of the two.
 std::string describe_file(const std::string& path);
 
 }  // namespace slagflow

@@ -12,8 +12,8 @@ Log::Log(Verbosity verbosity) : verbosity_(verbosity) {}
 
 Log::~Log() { clear_status(); }
 
-void Log::open(const std::string& path) {
-  file_.open(path, std::ios::trunc);
+void Log::open(const std::string& path, std::ios::openmode mode) {
+  file_.open(path, mode);
   file_ << before_open_ << std::flush;
   before_open_.clear();
   if (!file_) throw Error("cannot write to " + path + ": " + std::strerror(errno));

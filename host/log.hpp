@@ -16,8 +16,9 @@ class Log {
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
-  // From now on also into this file, what was said so far first. Throws Error when it cannot be opened.
-  void open(const std::string& path);
+  // From now on also into this file, what was said so far first; with std::ios::app behind what it holds.
+  // Throws Error when it cannot be opened.
+  void open(const std::string& path, std::ios::openmode mode = std::ios::trunc);
 
   void info(const std::string& message);
   void warning(const std::string& message);  // "warning: ..."

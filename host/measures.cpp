@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
+
+#include "backend/error.hpp"
 
 namespace slagflow {
 namespace {
@@ -25,6 +28,10 @@ std::string format(const char* pattern, double value) {
 
 std::string name_of(int axis, int sign) { return std::string(sign > 0 ? "+" : "-") + "xyz"[axis]; }
 
+// The classes of a jet by number, 0 being unknown.
+constexpr std::array<const char*, 3> flow_classes{"", "wall-flow", "free-jet"};
+constexpr std::size_t numbers_of_measure = std::tuple_size_v<ArrivalClock::State> + 5;
+
 const char* type_name(MeasureType type) { return type == MeasureType::jet ? "jet" : "front"; }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
@@ -42,6 +49,19 @@ bool ArrivalClock::update(double time, double passed) {
   last_passed_ = passed;
   begun_ = true;
   return now;
+}
+
+ArrivalClock::State ArrivalClock::state() const {
+  return {arrival_.value_or(std::numeric_limits<double>::quiet_NaN()), last_time_, last_passed_,
+          begun_ ? 1.0 : 0.0};
+}
+
+void ArrivalClock::restore(const State& state) {
+  arrival_.reset();
+  if (!std::isnan(state[0])) arrival_ = state[0];
+  last_time_ = state[1];
+  last_passed_ = state[2];
+  begun_ = state[3] > 0;
 }
 
 double JetGeometry::drop() const { return front.sign * (front.position - lip[front.axis]); }
@@ -70,7 +90,7 @@ JetShape measure_jet(const JetGeometry& jet, const std::vector<Vec3d>& positions
   if (count > 0) shape.tan_theta = sum / count / drop;
   if (!inner.empty()) shape.inner_offset = percentile(std::move(inner), 0.02);
   const double offset = std::isnan(shape.inner_offset) ? shape.tan_theta * drop : shape.inner_offset;
-  if (!std::isnan(offset)) shape.flow_class = offset <= 2 * jet.spacing ? "wall-flow" : "free-jet";
+  if (!std::isnan(offset)) shape.flow_class = flow_classes[offset <= 2 * jet.spacing ? 1 : 2];
   return shape;
 }
 
@@ -101,6 +121,36 @@ std::vector<double> Measures::update(double time, const Totals& totals, const Re
     values.insert(values.end(), {m.leading, m.passed});
   }
   return values;
+}
+
+std::vector<double> Measures::state() const {
+  std::vector<double> state;
+  for (const Measure& m : measures_) {
+    const ArrivalClock::State clock = m.clock.state();
+    state.insert(state.end(), clock.begin(), clock.end());
+    const auto found = std::find(flow_classes.begin(), flow_classes.end(), m.shape.flow_class);
+    state.insert(state.end(), {m.shape.tan_theta, m.shape.inner_offset,
+                               static_cast<double>(found - flow_classes.begin()), m.leading, m.passed});
+  }
+  return state;
+}
+
+void Measures::restore(const std::vector<double>& state) {
+  if (state.size() != numbers_of_measure * measures_.size())
+    throw Error("checkpoint: " + std::to_string(state.size()) + " numbers for " +
+                std::to_string(measures_.size()) + " measures");
+  const double* next = state.data();
+  for (Measure& m : measures_) {
+    ArrivalClock::State clock{};
+    std::copy_n(next, clock.size(), clock.begin());
+    m.clock.restore(clock);
+    next += clock.size();
+    const double flow_class = next[2] > 0 && next[2] < flow_classes.size() ? next[2] : 0;
+    m.shape = {next[0], next[1], flow_classes[static_cast<std::size_t>(flow_class)]};
+    m.leading = next[3];
+    m.passed = next[4];
+    next += numbers_of_measure - clock.size();
+  }
 }
 
 JetGeometry Measures::jet_of(const Measure& m) const {

@@ -15,6 +15,7 @@
 //                  tan_theta D takes the place of inner_offset.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -37,6 +38,11 @@ class ArrivalClock {
   // Returns true at the first time at or after the arrival, once.
   bool update(double time, double passed);
   std::optional<double> arrival() const { return arrival_; }  // [s]
+
+  // What it has seen so far, and back: a clock of the same fraction goes on as this one would.
+  using State = std::array<double, 4>;
+  State state() const;
+  void restore(const State& state);
 
  private:
   double fraction_;
@@ -76,6 +82,11 @@ class Measures {
   // The values of the columns now. Reads a snapshot only where a measure needs one.
   using ReadSnapshot = std::function<const FluidSnapshot&()>;
   std::vector<double> update(double time, const Totals& totals, const ReadSnapshot& read);
+
+  // What they have seen so far, and back: measures of the same case go on as these would.
+  // Throws Error when the state is one of other measures.
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);
 
   // Name of each measure -> {type, ...}.
   Json summary() const;

@@ -32,12 +32,17 @@ std::string version_text() {
          std::to_string(p.threads) + " threads)";
 }
 
-int run(const Arguments& arguments) {
-  const RunOutcome outcome = run_case(load_case(arguments.file, arguments.overrides), arguments.run);
+int report(const RunOutcome& outcome) {
   print("results in " + outcome.folder + "\n");
   for (const std::string& line : outcome.results) print(line + "\n");
   return outcome.exit_code();
 }
+
+int run(const Arguments& arguments) {
+  return report(run_case(load_case(arguments.file, arguments.overrides), arguments.run));
+}
+
+int resume(const Arguments& arguments) { return report(resume_run(arguments.run)); }
 
 int check(const Arguments& arguments) {
   const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
@@ -57,14 +62,17 @@ void add_case(CLI::App* command, Arguments& arguments) {
       ->type_name("KEY=VALUE");
 }
 
-void add_run_options(CLI::App* command, Arguments& arguments) {
-  RunOptions& run = arguments.run;
-  command->add_option("-o,--output", run.folder, "folder of the run (default: runs/<case name>)")
-      ->type_name("DIR");
+// Those of `run` and `resume`.
+void add_loop_options(CLI::App* command, RunOptions& run) {
   command->add_option("--threads", run.threads, "threads of the CPU build")->check(CLI::Range(1, 4096));
   command->add_option("--until", run.until, "end at this simulated time [s]")->check(CLI::PositiveNumber);
   command->add_flag_callback(
       "--quiet", [&run] { run.verbosity = Verbosity::quiet; }, "only warnings and errors on stderr");
+}
+
+void add_run_options(CLI::App* command, RunOptions& run) {
+  command->add_option("-o,--output", run.folder, "folder of the run (default: runs/<case name>)")
+      ->type_name("DIR");
   command->add_flag_callback(
       "--overwrite", [&run] { run.overwrite = Overwrite::replace; }, "replace an earlier run in the folder");
 }
@@ -76,10 +84,16 @@ int dispatch(int argc, const char* const* argv) {
   app.set_version_flag("--version", version_text, "version, commit, build and device");
   CLI::App* const run_command = app.add_subcommand("run", "run a case");
   add_case(run_command, arguments);
-  add_run_options(run_command, arguments);
+  add_run_options(run_command, arguments.run);
+  add_loop_options(run_command, arguments.run);
+  CLI::App* const resume_command = app.add_subcommand("resume", "go on with a run from its checkpoint");
+  resume_command->add_option("folder", arguments.run.folder, "folder of the run")
+      ->required()
+      ->type_name("DIR");
+  add_loop_options(resume_command, arguments.run);
   CLI::App* const check_command = app.add_subcommand("check", "validate a case and estimate its cost");
   add_case(check_command, arguments);
-  CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file holds");
+  CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
   try {
     app.parse(argc, argv);
@@ -87,6 +101,7 @@ int dispatch(int argc, const char* const* argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   if (run_command->parsed()) return run(arguments);
+  if (resume_command->parsed()) return resume(arguments);
   return check_command->parsed() ? check(arguments) : info(arguments);
 }
 

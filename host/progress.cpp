@@ -47,18 +47,19 @@ std::string progress_line(const ProgressState& state, double wall_time) {
   return line;
 }
 
-Progress::Progress(Log& log) : log_(log), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(Log& log, double wall_before)
+    : log_(log), wall_before_(wall_before), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void Progress::update(const ProgressState& state) {
   const auto now = Clock::now();
-  const std::chrono::duration<double> wall = now - start_;
+  const double wall = wall_before_ + std::chrono::duration<double>(now - start_).count();
   if (now - logged_ >= between_lines) {
     logged_ = now;
-    log_.info(progress_line(state, wall.count()));
+    log_.info(progress_line(state, wall));
   }
   if (terminal_ && now - shown_ >= between_status) {
     shown_ = now;
-    log_.status(cut_to_terminal(progress_line(state, wall.count())));
+    log_.status(cut_to_terminal(progress_line(state, wall)));
   }
 }
 

@@ -21,7 +21,8 @@ std::string progress_line(const ProgressState& state, double wall_time);
 
 class Progress {
  public:
-  explicit Progress(Log& log);
+  // `wall_before` [s]: what earlier parts of the run took.
+  explicit Progress(Log& log, double wall_before = 0);
 
   // To be called after every step; looks at the clock and mostly does nothing.
   void update(const ProgressState& state);
@@ -30,6 +31,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   Log& log_;
+  double wall_before_;
   bool terminal_;
   Clock::time_point start_ = Clock::now(), shown_ = start_, logged_ = start_;
 };

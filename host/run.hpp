@@ -1,4 +1,4 @@
-// Runs a case: the folder and its files, the loop over the steps, and how a run ends.
+// Runs a case, or goes on with a run that was broken off.
 #pragma once
 
 #include <optional>
@@ -36,5 +36,12 @@ struct RunOutcome {
 // Throws InputError before anything is written: the folder holds a run already, the geometry is impossible;
 // and Error when the folder or its first files cannot be written.
 RunOutcome run_case(const Case& c, const RunOptions& options);
+
+// Goes on with the run in options.folder from its newest sound checkpoint, to the end of its case or
+// options.until, and gives what an unbroken run gives, bit by bit. Outputs later than the checkpoint are
+// written anew. A run that is at its end already stays as it is, and the first result says so.
+// Throws InputError: no such folder, a build of another precision or backend; and Error: no sound checkpoint
+// (with the reasons), or the case's STL files have changed.
+RunOutcome resume_run(const RunOptions& options);
 
 }  // namespace slagflow

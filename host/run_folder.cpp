@@ -7,15 +7,24 @@
 #include <fstream>
 
 #include "backend/error.hpp"
+#include "host/checkpoint_store.hpp"
 
 namespace slagflow {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 7> run_files{"case.toml",   "particles.vtkhdf", "walls.vtkhdf",
-                                               "history.csv", "summary.json",     "checkpoint.h5",
-                                               "log.txt"};
+// Checkpoints first: once the files that they count on begin to go, nothing must be left to resume from.
+constexpr std::array<const char*, 10> run_files{checkpoint_name,
+                                                previous_checkpoint_name,
+                                                unfinished_checkpoint_name,
+                                                damaged_checkpoint_name,
+                                                "case.toml",
+                                                "particles.vtkhdf",
+                                                "walls.vtkhdf",
+                                                "history.csv",
+                                                "summary.json",
+                                                "log.txt"};
 
 }  // namespace
 

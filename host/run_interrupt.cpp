@@ -3,7 +3,8 @@
 namespace slagflow {
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;  // a signal handler can reach nothing else
+// A signal handler can reach nothing else.
+volatile std::sig_atomic_t stop_requested = 0, checkpoint_requested = 0;
 
 extern "C" void request_stop(int) {
   stop_requested = 1;
@@ -11,20 +12,31 @@ extern "C" void request_stop(int) {
   std::signal(SIGTERM, SIG_DFL);
 }
 
+extern "C" void request_checkpoint(int) { checkpoint_requested = 1; }
+
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-  stop_requested = 0;
+  stop_requested = checkpoint_requested = 0;
   struct sigaction action {};
   action.sa_handler = request_stop;
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, &interrupt_);
   sigaction(SIGTERM, &action, &terminate_);
+  action.sa_handler = request_checkpoint;
+  sigaction(SIGUSR1, &action, &checkpoint_);
 }
 
 InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &interrupt_, nullptr);
   sigaction(SIGTERM, &terminate_, nullptr);
+  sigaction(SIGUSR1, &checkpoint_, nullptr);
+}
+
+bool InterruptGuard::take_checkpoint_request() {
+  const bool taken = checkpoint_requested != 0;
+  checkpoint_requested = 0;
+  return taken;
 }
 
 bool InterruptGuard::requested() const { return stop_requested != 0; }

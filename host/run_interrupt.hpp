@@ -1,11 +1,12 @@
-// Ctrl-C and SIGTERM during a run.
+// Ctrl-C, SIGTERM and SIGUSR1 during a run.
 #pragma once
 
 #include <csignal>
 
 namespace slagflow {
 
-// While it lives, a first SIGINT or SIGTERM only sets a flag and a second one ends the process at once.
+// While it lives, a first SIGINT or SIGTERM only sets a flag and a second one ends the process at once;
+// SIGUSR1 sets another flag.
 // One at a time: the flag belongs to the process, as signals do.
 class InterruptGuard {
  public:
@@ -14,11 +15,13 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  bool requested() const;
+  bool requested() const;  // to stop
+  // Whether SIGUSR1 has come since the last call.
+  bool take_checkpoint_request();
 
  private:
   struct sigaction interrupt_ {
-  }, terminate_{};
+  }, terminate_{}, checkpoint_{};
 };
 
 }  // namespace slagflow

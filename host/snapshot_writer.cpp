@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/checkpoint_store.hpp"
+
 namespace slagflow {
 namespace {
 
@@ -31,14 +33,25 @@ void to_float(const std::vector<Vec3d>& from, std::vector<Vector3<float>>& to) {
 
 }  // namespace
 
+SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes)
+    : particles_(folder + "/particles.vtkhdf", particle_arrays()) {
+  if (sizes.walls > 0) walls_.emplace(folder + "/walls.vtkhdf", wall_arrays());
+}
+
 SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes,
                                const VtkhdfWriter::Attributes& attributes)
-    : particles_(folder + "/particles.vtkhdf", particle_arrays()) {
+    : SnapshotWriter(folder, sizes) {
   particles_.create(attributes, sizes.particles);
-  if (sizes.walls > 0) {
-    walls_.emplace(folder + "/walls.vtkhdf", wall_arrays());
-    walls_->create(attributes, sizes.walls);
-  }
+  if (walls_) walls_->create(attributes, sizes.walls);
+  thread_ = std::thread([this] { work(); });
+}
+
+SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes, PresentSnapshots present)
+    : SnapshotWriter(folder, sizes) {
+  particles_.truncate(present.count);
+  if (walls_) walls_->truncate(present.count);
+  walls_begun_ = present.count > 0;
+  written_ = present.count;
   thread_ = std::thread([this] { work(); });
 }
 
@@ -63,6 +76,19 @@ void SnapshotWriter::write(const std::function<void(Snapshot&)>& fill) {
   const std::lock_guard<std::mutex> lock(mutex_);
   full_.push_back(buffer);
   changed_.notify_all();
+}
+
+std::int64_t SnapshotWriter::finish_queue() {
+  std::int64_t written = 0;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return free_.size() == buffers_.size(); });
+    rethrow();
+    written = written_;
+  }
+  flush_to_disk(particles_.path());
+  if (walls_) flush_to_disk(walls_->path());
+  return written;
 }
 
 void SnapshotWriter::close() {
@@ -99,7 +125,10 @@ void SnapshotWriter::work() {
       failure = std::current_exception();
     }
     lock.lock();
-    if (failure) failure_ = failure;
+    if (failure)
+      failure_ = failure;
+    else
+      ++written_;
     free_.push_back(buffer);
     changed_.notify_all();
   }

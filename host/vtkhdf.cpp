@@ -18,6 +18,7 @@ namespace {
 
 using hdf5::File;
 using hdf5::Handle;
+using hdf5::RowRange;
 using hdf5::Storage;
 using hdf5::TableLayout;
 
@@ -243,6 +244,22 @@ void VtkhdfWriter::create(const Attributes& attributes, std::size_t points_expec
   create_points(file, arrays_, chunk_for(points_expected));
   create_topologies(file, points_expected);
   create_steps(file, arrays_);
+  file.close();
+}
+
+// The tables of data may go on behind the last step: appending writes over that.
+void VtkhdfWriter::truncate(std::int64_t steps) const {
+  const hdf5::QuietErrors quiet;
+  File file = File::open(path_, File::Access::change);
+  file.claim_all_bytes();
+  const std::int64_t present = vtkhdf_steps(file);
+  if (present < steps)
+    throw Error(path_ + ": holds " + std::to_string(present) + " time steps where the checkpoint knows of " +
+                std::to_string(steps));
+  const RowRange end{static_cast<hsize_t>(steps), 0};
+  write_integers(file, open_group(file, "/VTKHDF/Steps"), "NSteps", {steps});
+  write_rows(file, open_dataset(file, times), end, H5T_NATIVE_DOUBLE, nullptr);
+  write_rows(file, open_dataset(file, "/VTKHDF/NumberOfPoints"), end, H5T_NATIVE_INT64, nullptr);
   file.close();
 }
 

@@ -68,6 +68,10 @@ class VtkhdfWriter {
   // Throws Error that names the file.
   void create(const Attributes& attributes, std::size_t points_expected) const;
 
+  // Cuts an existing file off behind its first `steps` time steps. Throws Error that names the file: it
+  // cannot be changed, or holds fewer.
+  void truncate(std::int64_t steps) const;
+
   // Appends a time step with any number of points to the file, which must have been created.
   // Throws Error that names the file: it cannot be written, or the disk is full.
   void append(const PointStep& step) const;

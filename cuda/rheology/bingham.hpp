@@ -4,6 +4,7 @@
 #pragma once
 
 #include "math.hpp"
+#include "rheology/papanastasiou.hpp"
 
 namespace slagflow {
 
@@ -16,10 +17,7 @@ struct Bingham {
       : plastic_viscosity(p[0]), yield_stress(p[1]), growth_exponent(p[2]) {}
 
   HOST_DEVICE Real viscosity(Real shear_rate) const {
-    const Real x = growth_exponent * shear_rate;
-    // expm1 keeps its digits where the exponential is close to one; below 1e-6 the limit is exact.
-    const Real ratio = x > Real(1e-6) ? -std::expm1(-x) / x : Real(1);
-    return plastic_viscosity + yield_stress * growth_exponent * ratio;
+    return plastic_viscosity + yield_stress * growth_exponent * growth_ratio(growth_exponent * shear_rate);
   }
   // Yielded where the stress magnitude eta gamma exceeds tau_B.
   HOST_DEVICE bool yielded(Real shear_rate) const {

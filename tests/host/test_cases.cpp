@@ -34,16 +34,11 @@ TEST(Cases, EveryFileLoadsBuildsAndWritesItselfBack) {
 }
 
 TEST(Cases, ParticleCountsAreAsTheirCommentsSay) {
-  const std::map<std::string, std::size_t> counts{{"dam_discharge", 102000},
-                                                  {"dam_discharge_2mm", 12500},
-                                                  {"dam_discharge_quick", 2700},
-                                                  {"slag", 12500},
-                                                  {"oil_a", 12500},
-                                                  {"oil_b", 12500},
-                                                  {"hydrostatic_tank", 1600},
-                                                  {"hydrostatic_bingham", 1600},
-                                                  {"column_collapse", 6400},
-                                                  {"spinning_block", 1000}};
+  const std::map<std::string, std::size_t> counts{
+      {"dam_discharge", 102000}, {"dam_discharge_2mm", 12500}, {"dam_discharge_quick", 2700},
+      {"slag", 12500},           {"slurry_a_phi50", 12500},    {"oil_a", 12500},
+      {"oil_b", 12500},          {"hydrostatic_tank", 1600},   {"hydrostatic_bingham", 1600},
+      {"column_collapse", 6400}, {"spinning_block", 1000}};
   for (const auto& [name, count] : counts)
     EXPECT_EQ(build_setup(load_case(path_of(name))).setup.particles.position.size(), count) << name;
 }

@@ -1,0 +1,306 @@
+// Broken runs, resumed, against unbroken ones, bit by bit.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <map>
+#include <random>
+
+#include "backend/error.hpp"
+#include "host/checkpoint_store.hpp"
+#include "host/hdf5_handles.hpp"
+#include "host/program.hpp"
+#include "host/run.hpp"
+#include "host/vtkhdf.hpp"
+#include "program_process.hpp"
+#include "temp_folder.hpp"
+#include "tiny_case.hpp"
+
+namespace slagflow {
+namespace {
+
+using testing::HasSubstr;
+using testing_tools::ProgramProcess;
+using testing_tools::read_text_file;
+using testing_tools::TempFolder;
+using testing_tools::tiny_case;
+using testing_tools::wait_until;
+
+constexpr const char* end_time = "0.03";
+
+using Tables = std::map<std::string, std::vector<double>>;
+
+// Every data set below a group; a double holds each of their types exactly.
+void read_tables(const hdf5::File& file, const std::string& group, Tables& tables) {
+  for (const std::string& name : members(file, group)) {
+    const std::string path = group + "/" + name;
+    H5O_info_t info{};
+    file.check(H5Oget_info_by_name2(file.id(), path.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT), "read");
+    if (info.type == H5O_TYPE_GROUP) {
+      read_tables(file, path, tables);
+      continue;
+    }
+    const hdf5::Handle table = open_dataset(file, path);
+    std::vector<double>& values = tables[path];
+    values.resize(rows(file, table) * columns(file, table));
+    read_rows(file, table, {0, rows(file, table)}, H5T_NATIVE_DOUBLE, values.data());
+  }
+}
+
+Tables tables_of(const std::string& path) {
+  const hdf5::File file = hdf5::File::open(path, hdf5::File::Access::read);
+  Tables tables;
+  read_tables(file, "/VTKHDF", tables);
+  tables["steps"] = {static_cast<double>(read_integer(file, open_group(file, "/VTKHDF/Steps"), "NSteps"))};
+  return tables;
+}
+
+std::string measures_of(const std::string& folder) {
+  const std::string summary = read_text_file(folder + "/summary.json");
+  return summary.substr(summary.find("\"measures\""));
+}
+
+void expect_same_results(const std::string& folder, const std::string& unbroken) {
+  EXPECT_EQ(read_text_file(folder + "/history.csv"), read_text_file(unbroken + "/history.csv"));
+  EXPECT_EQ(measures_of(folder), measures_of(unbroken));
+  EXPECT_THAT(read_text_file(folder + "/summary.json"), HasSubstr("\"status\": \"done\""));
+  for (const char* name : {"/particles.vtkhdf", "/walls.vtkhdf"}) {
+    const Tables one = tables_of(folder + name), other = tables_of(unbroken + name);
+    ASSERT_EQ(one.size(), other.size());
+    for (const auto& [path, values] : one)
+      EXPECT_TRUE(other.count(path) > 0 && values == other.at(path)) << name << " " << path;
+  }
+}
+
+class Resume : public testing::Test {
+ protected:
+  Resume() { std::ofstream(case_file()) << tiny_case(end_time); }
+
+  std::string case_file() const { return folder_ / "tiny.toml"; }
+  std::string said() const { return read_text_file(folder_ / "said"); }
+
+  std::vector<std::string> run_command(const std::string& name) const {
+    return {"run",          case_file(), "-o",
+            folder_ / name, "--threads", "1",
+            "--quiet",      "--set",     "output.checkpoint_interval=0.002",
+            "--overwrite"};
+  }
+  std::vector<std::string> resume_command(const std::string& name) const {
+    return {"resume", folder_ / name, "--threads", "1", "--quiet"};
+  }
+  int call(const std::vector<std::string>& command) const {
+    return ProgramProcess(command, folder_ / "said").wait();
+  }
+  // To its end in this process; with `until` less than that, there is a run to resume.
+  void run_here(const std::string& name, std::optional<double> until = {}) const {
+    RunOptions options = here(name);
+    options.until = until;
+    const Case c = load_case(case_file(), {"output.checkpoint_interval=0.002"});
+    ASSERT_EQ(run_case(c, options).status, RunStatus::done);
+  }
+  RunOutcome resume_here(const std::string& name, std::optional<double> until = {}) const {
+    RunOptions options = here(name);
+    options.until = until;
+    return resume_run(options);
+  }
+  std::size_t lines_of_history(const std::string& name) const {
+    const std::string text = read_text_file(folder_ / name + "/history.csv");
+    return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+  }
+
+  const TempFolder folder_;
+
+ private:
+  RunOptions here(const std::string& name) const {
+    RunOptions options;
+    options.folder = folder_ / name;
+    options.threads = 1;
+    options.verbosity = Verbosity::quiet;
+    return options;
+  }
+};
+
+TEST_F(Resume, GivesTheBitsOfAnUnbrokenRunAfterSigterm) {
+  run_here("unbroken");
+  ProgramProcess process(run_command("broken"), folder_ / "said");
+  ASSERT_TRUE(wait_until([&] { return lines_of_history("broken") > 5; }));
+  process.send(SIGTERM);
+  ASSERT_EQ(process.wait(), 130) << said();
+  EXPECT_THAT(read_text_file(folder_ / "broken/summary.json"), HasSubstr("\"status\": \"interrupted\""));
+  EXPECT_EQ(call(resume_command("broken")), 0) << said();
+  expect_same_results(folder_ / "broken", folder_ / "unbroken");
+  EXPECT_THAT(read_text_file(folder_ / "broken/summary.json"), HasSubstr("\"resumes\": 1"));
+}
+
+// SLAGFLOW_KILLS sets the number of runs; each is killed up to three times before it may end.
+TEST_F(Resume, GivesTheBitsOfAnUnbrokenRunAfterSigkill) {
+  const auto begun = std::chrono::steady_clock::now();
+  ASSERT_EQ(call(run_command("unbroken")), 0) << said();
+  const auto wall = std::chrono::steady_clock::now() - begun;
+  const char* given = std::getenv("SLAGFLOW_KILLS");
+  const int runs = given != nullptr ? std::atoi(given) : 5;
+  std::mt19937 random(20170419);
+  std::uniform_real_distribution<double> share(0, 0.8);
+  int resumed = 0;
+  for (int k = 0; k < runs; ++k) {
+    SCOPED_TRACE("run " + std::to_string(k));
+    std::vector<std::string> command = run_command("broken");
+    for (int kills = 0; kills < 3; ++kills) {
+      ProgramProcess process(command, folder_ / "said");
+      std::this_thread::sleep_for(share(random) * wall);
+      process.send(SIGKILL);
+      const int status = process.wait();
+      ASSERT_TRUE(status == 128 + SIGKILL || status == 0) << said();
+      if (!std::filesystem::exists(folder_ / "broken/checkpoint.h5")) continue;  // too early: begin again
+      if (status != 0) ++resumed;
+      command = resume_command("broken");
+    }
+    ASSERT_EQ(call(command), 0) << said();
+    expect_same_results(folder_ / "broken", folder_ / "unbroken");
+  }
+  EXPECT_GT(resumed, 0);
+}
+
+TEST_F(Resume, Sigusr1WritesACheckpointAndTheRunGoesOn) {
+  std::vector<std::string> command = run_command("run");
+  command.insert(command.end(), {"--set", "output.end_time=1000", "--set", "output.checkpoint_interval=0"});
+  ProgramProcess process(command, folder_ / "said");
+  ASSERT_TRUE(wait_until([&] { return lines_of_history("run") > 2; }));
+  const std::string checkpoint = folder_ / "run/checkpoint.h5";
+  EXPECT_FALSE(std::filesystem::exists(checkpoint));
+  process.send(SIGUSR1);
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(checkpoint); }));
+  const std::size_t lines = lines_of_history("run");
+  EXPECT_TRUE(wait_until([&] { return lines_of_history("run") > lines; }));
+  EXPECT_TRUE(process.runs());
+  EXPECT_GT(read_checkpoint(checkpoint).run.steps, 0);
+  process.send(SIGTERM);
+  EXPECT_EQ(process.wait(), 130);
+}
+
+TEST_F(Resume, TakesAFinishedRunFurther) {
+  run_here("unbroken");
+  run_here("extended", 0.0107);
+  const RunOutcome outcome = resume_here("extended", std::stod(end_time));
+  EXPECT_EQ(outcome.exit_code(), 0);
+  expect_same_results(folder_ / "extended", folder_ / "unbroken");
+  EXPECT_THAT(read_text_file(folder_ / "extended/case.toml"),
+              HasSubstr(std::string("end_time = ") + end_time));
+}
+
+TEST_F(Resume, LeavesAFinishedRunAsItIsAndSaysSo) {
+  run_here("unbroken");
+  run_here("again");
+  for (int k = 0; k < 2; ++k) {
+    const RunOutcome outcome = resume_here("again");
+    EXPECT_EQ(outcome.exit_code(), 0);
+    ASSERT_FALSE(outcome.results.empty());
+    EXPECT_THAT(outcome.results[0], HasSubstr("has reached its end of 0.03"));
+    EXPECT_THAT(outcome.results[0], HasSubstr("--until"));
+  }
+  expect_same_results(folder_ / "again", folder_ / "unbroken");
+}
+
+TEST_F(Resume, UsesThePreviousCheckpointWhereTheNewestIsDamaged) {
+  run_here("unbroken");
+  run_here("damaged");
+  const std::string newest = folder_ / "damaged/checkpoint.h5";
+  std::filesystem::resize_file(newest, std::filesystem::file_size(newest) / 2);
+  testing::internal::CaptureStderr();
+  const RunOutcome outcome = resume_here("damaged");
+  EXPECT_THAT(
+      testing::internal::GetCapturedStderr(),
+      HasSubstr("checkpoint.h5: is truncated or no checkpoint: its end is missing; the previous one"));
+  EXPECT_EQ(outcome.exit_code(), 0);
+  expect_same_results(folder_ / "damaged", folder_ / "unbroken");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "damaged/checkpoint.damaged.h5"));
+  EXPECT_NO_THROW(read_checkpoint(newest));
+}
+
+TEST_F(Resume, FailsWithTheReasonsWhereNoCheckpointIsSound) {
+  run_here("run");
+  std::filesystem::resize_file(folder_ / "run/checkpoint.h5", 1000);
+  std::filesystem::resize_file(folder_ / "run/checkpoint.previous.h5", 0);
+  const std::string history = read_text_file(folder_ / "run/history.csv");
+  EXPECT_EQ(call(resume_command("run")), 1);
+  EXPECT_THAT(said(), HasSubstr("checkpoint.h5: is truncated"));
+  EXPECT_THAT(said(), HasSubstr("checkpoint.previous.h5: is truncated"));
+  EXPECT_EQ(read_text_file(folder_ / "run/history.csv"), history);
+}
+
+TEST_F(Resume, RefusesWhatIsNoFolderOfARun) {
+  EXPECT_EQ(call(resume_command("missing")), 2);
+  EXPECT_THAT(said(), HasSubstr("missing: is no folder"));
+  std::filesystem::create_directory(folder_ / "empty");
+  EXPECT_EQ(call(resume_command("empty")), 1);
+  EXPECT_THAT(said(), HasSubstr("holds no checkpoint.h5"));
+}
+
+TEST_F(Resume, RefusesACheckpointOfAnotherPrecisionOrBackend) {
+  run_here("run", 0.002);
+  const CheckpointStore store(folder_ / "run");
+  const Checkpoint written = store.read_newest().checkpoint;
+  for (const char* name : {"precision", "backend"}) {
+    Checkpoint other = written;
+    for (auto& [key, value] : other.texts)
+      if (key == name) value = "other";
+    store.write(other);
+    try {
+      resume_here("run");
+      FAIL() << "no error";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(std::string("a build with ") + name + " \"other\""));
+    }
+  }
+}
+
+TEST_F(Resume, RefusesACaseWhoseGeometryHasChanged) {
+  run_here("run", 0.002);
+  const CheckpointStore store(folder_ / "run");
+  Checkpoint other = store.read_newest().checkpoint;
+  other.run.geometry ^= 1;
+  store.write(other);
+  EXPECT_THROW(resume_here("run"), Error);
+}
+
+TEST_F(Resume, FailsWhereOutputsAreShorterThanTheCheckpointKnows) {
+  run_here("run", 0.01);
+  std::filesystem::resize_file(folder_ / "run/history.csv", 300);
+  testing::internal::CaptureStderr();
+  const RunOutcome outcome = resume_here("run", 0.02);
+  testing::internal::GetCapturedStderr();
+  EXPECT_EQ(outcome.exit_code(), 1);
+  EXPECT_THAT(outcome.reason, HasSubstr("history.csv: holds 300 bytes"));
+}
+
+TEST_F(Resume, FailedRunKeepsItsLastGoodCheckpoint) {
+  std::ofstream(case_file()) << testing_tools::leaving_case("stop");
+  EXPECT_EQ(call(run_command("run")), 1);
+  const RunRecord last = read_checkpoint(folder_ / "run/checkpoint.h5").run;
+  EXPECT_GT(last.steps, 0);
+  const std::string history = read_text_file(folder_ / "run/history.csv");
+  EXPECT_EQ(call(resume_command("run")), 1);
+  EXPECT_EQ(read_text_file(folder_ / "run/history.csv"), history);
+}
+
+// A folder in place of the unfinished file: no checkpoint can be written, all else can.
+TEST_F(Resume, GoesOnWithoutCheckpointsButFailsWithoutTheLast) {
+  run_here("unbroken");
+  run_here("run", 0.01);
+  const std::string before = read_text_file(folder_ / "run/checkpoint.h5");
+  std::filesystem::create_directory(folder_ / "run/checkpoint.h5.tmp");
+  testing::internal::CaptureStderr();
+  const RunOutcome outcome = resume_here("run", std::stod(end_time));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("warning: no checkpoint, the last one stays"));
+  EXPECT_EQ(outcome.exit_code(), 1);
+  EXPECT_THAT(outcome.reason, HasSubstr("checkpoint.h5.tmp: Is a directory"));
+  EXPECT_EQ(read_text_file(folder_ / "run/checkpoint.h5"), before);
+  std::filesystem::remove(folder_ / "run/checkpoint.h5.tmp");
+  EXPECT_EQ(resume_here("run", std::stod(end_time)).exit_code(), 0);
+  expect_same_results(folder_ / "run", folder_ / "unbroken");
+}
+
+}  // namespace
+}  // namespace slagflow
