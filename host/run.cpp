@@ -55,7 +55,9 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   BuiltCase built = build_setup(limited);
 
   Log log(options.verbosity);
-  prepare_folder(folder);
+  create_folder(folder);
+  const FolderLock lock(folder);
+  clear_folder(folder);
   log.open(folder + "/log.txt");
   for (const std::string& warning : built.warnings) log.warning(warning);
   return Run(std::move(built), folder, log).execute();
@@ -66,6 +68,7 @@ RunOutcome resume_run(const RunOptions& options) {
   std::error_code failed;
   if (!std::filesystem::is_directory(folder, failed))
     throw InputError(folder + ": is no folder: allowed: the folder of a run");
+  const FolderLock lock(folder);
   if (options.threads > 0) set_threads(options.threads);
   const CheckpointStore store(folder);
   FoundCheckpoint found = store.read_newest();

@@ -1,5 +1,9 @@
 #include "host/run_folder.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -41,10 +45,25 @@ void require_free_folder(const std::string& folder, Overwrite overwrite) {
                      ": holds files already; --overwrite replaces an earlier run, -o takes another folder");
 }
 
-void prepare_folder(const std::string& folder) {
+FolderLock::FolderLock(const std::string& folder)
+    : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(folder_);
+  throw InputError(folder + ": another run is writing to this folder");
+}
+
+FolderLock::~FolderLock() {
+  if (folder_ >= 0) ::close(folder_);
+}
+
+void create_folder(const std::string& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw Error("cannot create the folder " + folder + ": " + failed.message());
+}
+
+void clear_folder(const std::string& folder) {
+  std::error_code failed;
   for (const char* name : run_files) {
     fs::remove(fs::path(folder) / name, failed);
     if (failed) throw Error("cannot remove " + folder + "/" + name + ": " + failed.message());

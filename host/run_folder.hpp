@@ -13,9 +13,25 @@ std::string run_folder(const Case& c, const RunOptions& options);
 // Throws InputError if the folder holds anything and must not be overwritten, or is no folder.
 void require_free_folder(const std::string& folder, Overwrite overwrite);
 
-// Creates the folder, or removes what an earlier run wrote there and nothing else.
-// Throws Error naming the folder or file.
-void prepare_folder(const std::string& folder);
+// Holds an existing folder for one run at a time, also against other programs; the system ends it with the
+// process. File systems without locks are trusted.
+class FolderLock {
+ public:
+  // Throws InputError when another run holds the folder.
+  explicit FolderLock(const std::string& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int folder_;
+};
+
+// Creates the folder. Throws Error naming it.
+void create_folder(const std::string& folder);
+
+// Removes what an earlier run wrote there and nothing else. Throws Error naming the file.
+void clear_folder(const std::string& folder);
 
 // Writes a whole file. Throws Error naming it.
 void write_file(const std::string& path, const std::string& text);

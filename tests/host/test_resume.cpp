@@ -174,6 +174,7 @@ TEST_F(Resume, Sigusr1WritesACheckpointAndTheRunGoesOn) {
   const std::size_t lines = lines_of_history("run");
   EXPECT_TRUE(wait_until([&] { return lines_of_history("run") > lines; }));
   EXPECT_TRUE(process.runs());
+  EXPECT_THROW(resume_here("run"), InputError);  // while the other is at work
   EXPECT_GT(read_checkpoint(checkpoint).run.steps, 0);
   process.send(SIGTERM);
   EXPECT_EQ(process.wait(), 130);
