@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "cleared_arrays.hpp"
 #include "list_age.hpp"
 #include "scene.hpp"
 
@@ -42,7 +43,7 @@ class ListAgeOf : public testing::Test {
       places.push_back(quad(to_real(p), 0)), ids.push_back(static_cast<Index>(ids.size()));
     for (Vec3d p : walls)
       wall_places.push_back(quad(to_real(p), 0)), wall_ids.push_back(static_cast<Index>(wall_ids.size()));
-    fluid_.resize(static_cast<Index>(fluid.size())), wall_.resize(static_cast<Index>(walls.size()));
+    clear(fluid_, fluid.size()), clear(wall_, walls.size());
     fluid_.position.upload(fluid), fluid_.place.upload(places), fluid_.id.upload(ids);
     fluid_.fluid.upload(std::vector<std::uint8_t>(fluid.size()));
     wall_.place.upload(wall_places), wall_.id.upload(wall_ids);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 
+#include "cleared_arrays.hpp"
 #include "neighbours.hpp"
 #include "scene.hpp"
 
@@ -47,7 +48,7 @@ class Neighbours : public testing::Test {
  protected:
   // Sorts the sources by cell; `sorted` becomes their places in the device's order.
   SourceView sort(const Space& s, const Points& points) {
-    wall_.resize(static_cast<Index>(points.size()));
+    clear(wall_, points.size());
     std::vector<Quad> place;
     std::vector<Index> id;
     for (Vec3 p : points) place.push_back(quad(p, 0)), id.push_back(static_cast<Index>(id.size()));
