@@ -96,7 +96,7 @@ void NeighbourList::search_and_store(const Search<Box>& search) {
   launch(context_, "measure slices", slices, MeasureSlice{length_.span(), slice_length_.span()});
   exclusive_scan(context_, slice_length_.span(), slice_.span());
   context_.copy_to_host(&capacity_, slice_.span().data + slices, sizeof capacity_);
-  constexpr Offset margin_percent = 2;
+  constexpr Offset margin_percent = 1;
   entry_.resize(capacity_, margin_percent);
   launch(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), entry_.span()});
 }

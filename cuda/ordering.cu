@@ -95,7 +95,7 @@ Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic
       spare_real_(c, "sort spare") {}
 
 void Ordering::sort_keys(Index count) {
-  spare_key_.resize(count), spare_order_.resize(count);
+  if (sort_needs_scratch) spare_key_.resize(count), spare_order_.resize(count);
   sort_by_key(context_, key_.span(), order_.span(), {spare_key_.span(), spare_order_.span()}, 64);
 }
 

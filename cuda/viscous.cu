@@ -76,7 +76,7 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       work_(c) {}
 
 void ViscousStep::resize(Index count, Offset pair_capacity) {
-  constexpr Offset margin_percent = 2;
+  constexpr Offset margin_percent = 1;
   predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
   wall_.resize(count), length_.resize(count), link_.resize(pair_capacity, margin_percent);
 }

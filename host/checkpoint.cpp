@@ -84,10 +84,11 @@ std::int64_t checksum_of(const SavedArray& array) {
   return value;
 }
 
-void write_arrays(const File& file, const std::string& group, const SavedState& arrays) {
+// Gives the memory of each array back when it is written.
+void write_arrays(const File& file, const std::string& group, SavedState arrays) {
   create_group(file, group);
-  constexpr hsize_t longest_chunk = 65536;  // rows
-  for (const SavedArray& array : arrays) {
+  constexpr hsize_t longest_chunk = 8192;  // rows; the last chunk is padded
+  for (SavedArray& array : arrays) {
     const hsize_t count = array.bytes.size() / array.element_size;
     hdf5::TableLayout layout;
     layout.type = H5T_NATIVE_UINT8;
@@ -97,6 +98,7 @@ void write_arrays(const File& file, const std::string& group, const SavedState& 
     write_rows(file, table, {0, count}, H5T_NATIVE_UINT8, array.bytes.data());
     write_integers(file, table, "element_size", {static_cast<std::int64_t>(array.element_size)});
     write_integers(file, table, "checksum", {checksum_of(array)});
+    array.bytes = {};
   }
 }
 
@@ -162,7 +164,7 @@ const std::string& Checkpoint::text(const std::string& name) const {
   throw Error("checkpoint: the text '" + name + "' is missing");
 }
 
-std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint, const std::string& path) {
+std::vector<std::byte> checkpoint_bytes(Checkpoint checkpoint, const std::string& path) {
   const hdf5::QuietErrors quiet;
   const File file = File::create_in_memory(path);
   {
@@ -171,8 +173,8 @@ std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint, const std:
     for (const auto& [name, value] : checkpoint.texts) write_text(file, root, name.c_str(), value);
   }
   write_arrays(file, "/run", arrays_of(checkpoint.run));
-  write_arrays(file, "/simulation", checkpoint.state);
-  std::vector<std::byte> bytes = file.image();
+  write_arrays(file, "/simulation", std::move(checkpoint.state));
+  std::vector<std::byte> bytes = file.image(seal_bytes);
   const std::uint64_t sum = checksum(bytes.data(), bytes.size());
   const std::size_t content = bytes.size();
   bytes.resize(content + seal_bytes);

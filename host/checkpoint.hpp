@@ -50,7 +50,7 @@ constexpr std::uint64_t checksum_start = 14695981039346656037ull;
 std::uint64_t checksum(const void* data, std::size_t bytes, std::uint64_t so_far = checksum_start);
 
 // The bytes of the file, seal included; `path` is for errors.
-std::vector<std::byte> checkpoint_bytes(const Checkpoint& checkpoint, const std::string& path);
+std::vector<std::byte> checkpoint_bytes(Checkpoint checkpoint, const std::string& path);
 
 // Throws Error that names the file and what is wrong: missing, damaged, truncated, of another kind.
 Checkpoint read_checkpoint(const std::string& path);

@@ -77,9 +77,9 @@ void flush_to_disk(const std::string& path) {
   file.flush();
 }
 
-void CheckpointStore::write(const Checkpoint& checkpoint) const {
+void CheckpointStore::write(Checkpoint checkpoint) const {
   const std::string path = path_of(checkpoint_name), unfinished = path_of(unfinished_checkpoint_name);
-  write_new(unfinished, checkpoint_bytes(checkpoint, path));
+  write_new(unfinished, checkpoint_bytes(std::move(checkpoint), path));
   if (exists(path)) rename_file(path, path_of(previous_checkpoint_name));
   rename_file(unfinished, path);
   flush_to_disk(folder_);

@@ -28,7 +28,7 @@ class CheckpointStore {
 
   // Writes beside the present checkpoint, flushes it to disk and only then puts it in its place; the present
   // one becomes the previous. Throws Error naming file and reason; the present ones are then as they were.
-  void write(const Checkpoint& checkpoint) const;
+  void write(Checkpoint checkpoint) const;
 
   // The newest that is sound. Throws Error with the reasons if none is.
   FoundCheckpoint read_newest() const;

@@ -132,10 +132,12 @@ void File::flush() const { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write to");
 
 void File::claim_all_bytes() const { check(H5Fincrement_filesize(file_, 0), "extend"); }
 
-std::vector<std::byte> File::image() const {
+std::vector<std::byte> File::image(std::size_t spare) const {
   flush();
   const auto size = check(H5Fget_file_image(file_, nullptr, 0), "take the bytes of");
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  std::vector<std::byte> bytes;
+  bytes.reserve(static_cast<std::size_t>(size) + spare);
+  bytes.resize(static_cast<std::size_t>(size));
   check(H5Fget_file_image(file_, bytes.data(), bytes.size()), "take the bytes of");
   return bytes;
 }

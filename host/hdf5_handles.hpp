@@ -77,7 +77,8 @@ class File {
   // After a crash the file may refer to places beyond the end that it knows of, and would fill them a second
   // time: from now on it ends where it ends on disk.
   void claim_all_bytes() const;
-  std::vector<std::byte> image() const;  // the bytes of the file as it is now
+  // The bytes of the file as it is now; the vector has room for `spare` more.
+  std::vector<std::byte> image(std::size_t spare) const;
   void close();
 
  private:

@@ -124,6 +124,7 @@ void SnapshotWriter::work() {
     } catch (...) {
       failure = std::current_exception();
     }
+    *buffer = {};  // between snapshots their memory is free for a checkpoint
     lock.lock();
     if (failure)
       failure_ = failure;
