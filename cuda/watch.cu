@@ -34,8 +34,7 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
   const double lost = static_cast<double>(now.departed) / larger(1.0, particles_);
   if (lost > limits.max_lost_fraction)
     fail(now,
-         "a fraction " + number(lost) +
-             " of the particles has left the domain; limits.max_lost_fraction is " +
+         "a fraction " + number(lost) + " of the particles has left the domain; the limit is " +
              number(limits.max_lost_fraction),
          "a larger domain, or close its walls");
   if (now.time_step < limits.min_time_step_ratio * acoustic_time_step(setup_))
@@ -44,14 +43,14 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
   if (fluid.count == 0) return;
   const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
   if (!(vitals.max_speed <= limits.max_speed))
-    fail_at_worst(fluid, now,
-                  "a speed of " + number(vitals.max_speed) + " m/s; limits.max_speed is " +
-                      number(limits.max_speed) + " m/s",
-                  speed_squared, "a smaller courant, a larger sound_speed, or thicker walls");
+    fail_at_worst(
+        fluid, now,
+        "a speed of " + number(vitals.max_speed) + " m/s; the limit is " + number(limits.max_speed) + " m/s",
+        speed_squared, "a smaller courant, a larger sound_speed, or thicker walls");
   if (!(vitals.max_compression <= limits.max_compression))
     fail_at_worst(fluid, now,
-                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
-                      "; limits.max_compression is " + number(limits.max_compression),
+                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) + "; the limit is " +
+                      number(limits.max_compression),
                   density_excess, "a larger sound_speed or a smaller courant");
   check_energy(vitals, now);
 }
@@ -71,7 +70,7 @@ void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   if (growth > setup_.limits.max_energy_growth)
     fail(now,
          "the energy grew by " + number(energy - memory.lowest_energy) +
-             " J without a source; limits.max_energy_growth is " + number(setup_.limits.max_energy_growth),
+             " J without a source; the limit is a share of " + number(setup_.limits.max_energy_growth),
          "a smaller courant");
 }
 

@@ -8,14 +8,15 @@
 
 namespace slagflow {
 
-// Sorts the keys in ascending order and the values along with them; equal keys keep their order.
-// Only the lowest `bits` bits of the keys are compared. The result is in `keys` and `values`; the scratch is
-// of the same size where the back end needs any.
 #if defined(SLAGFLOW_CUDA)
 inline constexpr bool sort_needs_scratch = true;
 #else
 inline constexpr bool sort_needs_scratch = false;
 #endif
+
+// Sorts the keys in ascending order and the values along with them; equal keys keep their order.
+// Only the lowest `bits` bits of the keys are compared. The result is in `keys` and `values`; the scratch is
+// of the same size where the back end needs any.
 struct SortScratch {
   Span<std::uint64_t> keys;
   Span<Index> values;
