@@ -54,7 +54,14 @@ struct FluidSpec {
   const RheologyInfo& info() const { return rheologies[static_cast<std::size_t>(rheology)]; }
 };
 
-enum class InitialPressure { hydrostatic, zero };
+enum class InitialPressure { hydrostatic, zero, uniform };
+
+// A plane wave of velocity: amplitude sin(2 pi wave_vector.x + phase).
+struct WaveSpec {
+  Vec3d amplitude;    // [m/s]
+  Vec3d wave_vector;  // [1/m], one over the wavelength
+  double phase = 0;   // [rad]
+};
 
 struct RegionSpec {
   int fluid = 0;  // index into Case::fluids
@@ -62,7 +69,10 @@ struct RegionSpec {
   Vec3d velocity;          // [m/s]
   Vec3d angular_velocity;  // [rad/s], about center
   Vec3d center;            // [m]
+  std::vector<WaveSpec> waves;
   InitialPressure pressure = InitialPressure::hydrostatic;
+  double uniform_pressure = 0;  // [Pa]
+  double jitter = 0;            // [spacings] that particles start away from the lattice, along each axis
 };
 
 struct WallSpec {

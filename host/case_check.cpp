@@ -81,6 +81,11 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
     const std::string key = "region." + std::to_string(r);
     no_y(key + ".velocity", c.regions[r].velocity.y);
     const Vec3d& spin = c.regions[r].angular_velocity;
+    for (std::size_t w = 0; w < c.regions[r].waves.size(); ++w) {
+      const std::string wave = key + ".waves." + std::to_string(w);
+      no_y(wave + ".amplitude", c.regions[r].waves[w].amplitude.y);
+      no_y(wave + ".wave_vector", c.regions[r].waves[w].wave_vector.y);
+    }
     if (spin.x != 0 || spin.z != 0)
       problems.add(key + ".angular_velocity",
                    "turns out of the x-z plane with two dimensions: allowed: about y alone");

@@ -104,6 +104,25 @@ void read_fluid_index(CaseTable& t, const Case& c, RegionSpec& region) {
     t.read_choice("fluid", region.fluid, names, names.size() > 1 ? Need::required : Need::optional);
 }
 
+void read_pressure(CaseTable& t, RegionSpec& region) {
+  if (!t.holds_number("pressure")) {
+    t.read_enum("pressure", region.pressure, pressure_names);
+  } else if (t.read("pressure", region.uniform_pressure, at_least(0, "Pa"))) {
+    region.pressure = InitialPressure::uniform;
+  }
+}
+
+void read_waves(CaseTable& region_table, RegionSpec& region) {
+  for (CaseTable& t : region_table.tables("waves", Need::optional)) {
+    WaveSpec wave;
+    t.read("amplitude", wave.amplitude, any_number("m/s"), Need::required);
+    t.read("wave_vector", wave.wave_vector, any_number("1/m"), Need::required);
+    t.read("phase", wave.phase, any_number("rad"));
+    t.finish();
+    region.waves.push_back(wave);
+  }
+}
+
 void read_front(CaseTable& t, MeasureSpec& measure) {
   int direction = 0;
   if (t.read_choice("direction", direction, direction_names, Need::required))
@@ -165,7 +184,9 @@ void read_regions(CaseTable& top, Case& c) {
     t.read("velocity", region.velocity, any_number("m/s"));
     t.read("angular_velocity", region.angular_velocity, any_number("rad/s"));
     t.read("center", region.center, any_number("m"));
-    t.read_enum("pressure", region.pressure, pressure_names);
+    read_waves(t, region);
+    read_pressure(t, region);
+    t.read("jitter", region.jitter, between(0, 0.5, "spacings"));
     t.finish();
     c.regions.push_back(region);
   }

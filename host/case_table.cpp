@@ -256,6 +256,11 @@ bool CaseTable::read(const char* key, std::vector<std::array<double, 2>>& target
   return true;
 }
 
+bool CaseTable::holds_number(const char* key) {
+  const Toml* value = find(key, Need::optional, "a number");
+  return value && (value->is_floating() || value->is_integer());
+}
+
 bool CaseTable::says(const char* key, const std::string& word) {
   const Toml* value = find(key, Need::optional, word);
   return value && value->is_string() && value->as_string().str == word;

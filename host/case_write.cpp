@@ -58,6 +58,19 @@ std::string text_of(const std::vector<ShapeSpec>& shapes) {
   return text + (shapes.empty() ? "]" : "\n]");
 }
 
+std::string text_of(const std::vector<WaveSpec>& waves) {
+  std::string text = "[";
+  for (const WaveSpec& wave : waves)
+    text += "\n  {amplitude = " + text_of(wave.amplitude) + ", wave_vector = " + text_of(wave.wave_vector) +
+            ", phase = " + show(wave.phase) + "},";
+  return text + (waves.empty() ? "]" : "\n]");
+}
+
+std::string pressure_text(const RegionSpec& region) {
+  return region.pressure == InitialPressure::uniform ? show(region.uniform_pressure)
+                                                     : name_of(pressure_names, region.pressure);
+}
+
 void write_frame(std::ostream& out, const Case& c) {
   out << "# The resolved case: every key with its value, defaults included.\n"
       << "[case]\nname = " << quoted(c.name) << "\ndescription = " << quoted(c.description) << "\n\n"
@@ -90,8 +103,8 @@ void write_fluids(std::ostream& out, const Case& c) {
         << "\nshapes = " << text_of(region.shapes) << "\nsubtract = " << text_of(region.subtract)
         << "\nvelocity = " << text_of(region.velocity)
         << "\nangular_velocity = " << text_of(region.angular_velocity)
-        << "\ncenter = " << text_of(region.center)
-        << "\npressure = " << name_of(pressure_names, region.pressure) << "\n\n";
+        << "\ncenter = " << text_of(region.center) << "\nwaves = " << text_of(region.waves)
+        << "\npressure = " << pressure_text(region) << "\njitter = " << show(region.jitter) << "\n\n";
 }
 
 void write_walls(std::ostream& out, const Case& c) {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "backend/error.hpp"
+#include "host/region_fields.hpp"
 
 namespace slagflow {
 namespace {
@@ -53,17 +54,17 @@ class Filler {
     const Solid solid = make_solid(c_, region.shapes, region.subtract, key);
     FluidParticles& out = result_.fluid;
     const std::size_t first = out.position.size();
-    lattice_.visit_inside(
-        [&](Vec3d p) { return solid.distance(p); },
-        [&](const SiteIndex& s, Vec3d p) {
-          std::uint8_t& flags = flags_[lattice_.linear(s)];
-          if (!lattice_.in_domain(s) || body_[lattice_.linear(s)] != 0 || (flags & fluid)) return;
-          if (solids_.distance(p) < wall_gap * lattice_.spacing()) return;
-          flags |= fluid;
-          check_room();
-          out.position.push_back(p);
-          out.velocity.push_back(region.velocity + cross(region.angular_velocity, p - region.center));
-        });
+    lattice_.visit_inside([&](Vec3d p) { return solid.distance(p); },
+                          [&](const SiteIndex& s, Vec3d p) {
+                            std::uint8_t& flags = flags_[lattice_.linear(s)];
+                            if (!lattice_.in_domain(s) || body_[lattice_.linear(s)] != 0 || (flags & fluid))
+                              return;
+                            if (solids_.distance(p) < wall_gap * lattice_.spacing()) return;
+                            flags |= fluid;
+                            check_room();
+                            out.position.push_back(region.jitter > 0 ? jittered(p, region.jitter) : p);
+                            out.velocity.push_back(initial_velocity(region, out.position.back()));
+                          });
     if (out.position.size() == first)
       throw InputError(
           c_.place_of(key) + ": key '" + key +
@@ -73,11 +74,27 @@ class Filler {
     set_pressure(region, first);
   }
 
+  // The particle's place beside its site; nearer to it where it would be in a wall or outside of the domain.
+  Vec3d jittered(Vec3d site, double jitter) const {
+    Vec3d offset = jitter * lattice_.spacing() * jitter_of(result_.fluid.position.size());
+    if (c_.dimensions == 2) offset.y = 0;
+    for (int tries = 0; tries < 20; ++tries, offset = 0.5 * offset) {
+      const Vec3d p = lattice_.wrapped(site + offset);
+      if (lattice_.in_domain(p) && solids_.distance(p) >= wall_gap * lattice_.spacing()) return p;
+    }
+    return site;
+  }
+
   // rho |g| times the depth below the free surface, half a spacing above the highest particle.
   void set_pressure(const RegionSpec& region, std::size_t first) {
     FluidParticles& out = result_.fluid;
     out.pressure.resize(out.position.size(), 0);
     if (region.pressure == InitialPressure::zero) return;
+    if (region.pressure == InitialPressure::uniform) {
+      std::fill(out.pressure.begin() + static_cast<std::ptrdiff_t>(first), out.pressure.end(),
+                region.uniform_pressure);
+      return;
+    }
     const double density = c_.fluids[static_cast<std::size_t>(region.fluid)].density;
     double highest = -std::numeric_limits<double>::infinity();  // potential -g.x, [m^2/s^2]
     for (std::size_t i = first; i < out.position.size(); ++i)

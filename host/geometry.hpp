@@ -31,6 +31,8 @@ class Lattice {
   }
   Vec3d position(const SiteIndex& s) const;  // [m]
   bool in_domain(const SiteIndex& s) const;
+  bool in_domain(Vec3d p) const;  // between the faces; along y always with two dimensions
+  Vec3d wrapped(Vec3d p) const;   // brought back into the domain along periodic axes [m]
   bool periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
   // Moves along an axis, round a periodic one. Returns false when that leaves the lattice.
   bool move(SiteIndex& s, int axis, std::int64_t steps) const;
@@ -49,6 +51,7 @@ class Lattice {
   std::int64_t layers_;
   bool flat_;
   std::array<bool, 3> periodic_;
+  Vec3d lower_, upper_;                                         // [m] of the domain
   SiteIndex first_{}, count_{}, inner_first_{}, inner_last_{};  // inner: relative to first_, last excluded
 };
 

@@ -46,7 +46,9 @@ Lattice::Lattice(const Case& c)
       origin_(c.origin),
       layers_(static_cast<std::int64_t>(std::ceil(c.support_ratio))),
       flat_(c.dimensions == 2),
-      periodic_(c.domain.periodic) {
+      periodic_(c.domain.periodic),
+      lower_(c.domain.lower),
+      upper_(c.domain.upper) {
   double sites = 1;
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
@@ -90,6 +92,21 @@ bool Lattice::in_domain(const SiteIndex& s) const {
   for (std::size_t k = 0; k < 3; ++k)
     if (s[k] < inner_first_[k] || s[k] >= inner_last_[k]) return false;
   return true;
+}
+
+bool Lattice::in_domain(Vec3d p) const {
+  for (int k = 0; k < 3; ++k)
+    if (!(flat_ && k == 1) && !(p[k] >= lower_[k] && p[k] < upper_[k])) return false;
+  return true;
+}
+
+Vec3d Lattice::wrapped(Vec3d p) const {
+  for (int k = 0; k < 3; ++k) {
+    if (!periodic(k)) continue;
+    const double extent = upper_[k] - lower_[k];
+    p[k] -= extent * std::floor((p[k] - lower_[k]) / extent);
+  }
+  return p;
 }
 
 bool Lattice::move(SiteIndex& s, int axis, std::int64_t steps) const {

@@ -189,6 +189,12 @@ const std::vector<Wrong> wrong_cases{
      {"case.toml:19: key 'wall.1.name': value \"floor\" is given twice"}},
     {7, "[fluid.'a b']", {"case.toml:7: key 'fluid.a b': the name of a fluid"}},
     // Geometry
+    {13, "jitter = 0.7", {"case.toml:13: key 'region.0.jitter': value 0.7 is out of range"}},
+    {13, "pressure = -1", {"case.toml:13: key 'region.0.pressure': value -1 is out of range"}},
+    {13,
+     "pressure = 'half'",
+     {"key 'region.0.pressure': value \"half\" is unknown: allowed: hydrostatic, zero"}},
+    {13, "waves = [{amplitude=[1,0,0]}]", {"case.toml:13: key 'region.0.waves.0.wave_vector': missing"}},
     {14, "shapes = []", {"case.toml:14: key 'region.0.shapes': value [] is empty"}},
     {14,
      "shapes = [{shape='box', min=[0,0,0], max=[1,0,1]}]",

@@ -16,7 +16,8 @@ std::string path_of(const std::string& name) {
 
 TEST(Cases, EveryFileLoadsBuildsAndWritesItselfBack) {
   int files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(SLAGFLOW_SOURCE_DIR) + "/cases")) {
+  const std::string folder = std::string(SLAGFLOW_SOURCE_DIR) + "/cases";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".toml") continue;
     ++files;
     SCOPED_TRACE(entry.path().string());
