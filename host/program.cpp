@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <new>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "backend/error.hpp"
@@ -11,6 +12,7 @@
 #include "host/check.hpp"
 #include "host/info.hpp"
 #include "host/provenance.hpp"
+#include "host/rheometry.hpp"
 #include "host/run.hpp"
 #include "host/setup_builder.hpp"
 
@@ -21,6 +23,7 @@ struct Arguments {
   std::string file;
   std::vector<std::string> overrides;
   RunOptions run;
+  RheometryOptions rheometry;
 };
 
 void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
@@ -55,6 +58,11 @@ int info(const Arguments& arguments) {
   return 0;
 }
 
+int rheometry(const Arguments& arguments) {
+  run_rheometry(arguments.rheometry);
+  return 0;
+}
+
 void add_case(CLI::App* command, Arguments& arguments) {
   command->add_option("case", arguments.file, "case file")->required()->type_name("CASE.toml");
   command->add_option("--set", arguments.overrides, "set a key of the case, as fluid.slag.yield_stress=5")
@@ -77,6 +85,37 @@ void add_run_options(CLI::App* command, RunOptions& run) {
       "--overwrite", [&run] { run.overwrite = Overwrite::replace; }, "replace an earlier run in the folder");
 }
 
+CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
+  CLI::App* const command = app.add_subcommand("rheometry", "fit rheologies to a viscometer's readings");
+  command->add_option("file", options.file, "readings")->required()->type_name("FILE.csv");
+  command
+      ->add_option_function<std::string>(
+          "--model",
+          [&options](const std::string& name) {
+            for (const FlowModel model : flow_models)
+              if (name == name_of(model)) options.model = model;
+          },
+          "newtonian, bingham, herschel-bulkley, or auto: the best by AICc")
+      ->check(CLI::IsMember({"auto", "newtonian", "bingham", "herschel-bulkley"}));
+  command->add_option("-o,--output", options.output, "the fluid's table; the curves go beside it")
+      ->type_name("X.toml");
+  SampleFacts& facts = options.facts;
+  for (const auto& [name, fact, what] :
+       {std::tuple{"--bob-radius", &facts.bob_radius, "of concentric cylinders [m]"},
+        std::tuple{"--cup-radius", &facts.cup_radius, "of concentric cylinders [m]"},
+        std::tuple{"--height", &facts.height, "of the wetted bob [m]"},
+        std::tuple{"--full-scale-torque", &facts.full_scale_torque, "where torque is in per cent [N m]"},
+        std::tuple{"--density", &facts.density, "of the fluid [kg/m^3]"}})
+    command->add_option(name, *fact, what)->check(CLI::PositiveNumber);
+  command->add_option("--name", facts.name, "of the fluid (default: the name of the file)");
+  command->add_option("--growth-exponent", options.growth_exponent, "m of the fluid's table [s]")
+      ->check(CLI::PositiveNumber);
+  command->add_flag_callback(
+      "--relative-errors", [&options] { options.errors = ErrorModel::relative; },
+      "the readings are uncertain by the same share, not by the same stress");
+  return command;
+}
+
 int dispatch(int argc, const char* const* argv) {
   CLI::App app("Smoothed-particle hydrodynamics of slag with a yield stress and a free surface.", "slagflow");
   Arguments arguments;
@@ -95,6 +134,7 @@ int dispatch(int argc, const char* const* argv) {
   add_case(check_command, arguments);
   CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
+  CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -102,6 +142,7 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (run_command->parsed()) return run(arguments);
   if (resume_command->parsed()) return resume(arguments);
+  if (rheometry_command->parsed()) return rheometry(arguments);
   return check_command->parsed() ? check(arguments) : info(arguments);
 }
 

@@ -73,6 +73,22 @@ class Plot(unittest.TestCase):
         self.assertGreater(self.picture_size("flow.png")[0], 600)
         self.assertGreater(self.picture_size("history.png")[0], 600)
 
+    def test_draws_a_flow_curve_beside_its_table(self):
+        self.folder.mkdir()
+        curves = self.folder / "oil.csv"
+        curves.write_text("shear_rate_1/s,measured_Pa,newtonian_Pa\n1,1.1,1\n5,4.9,5\n0.8,,0.8\n6,,6\n")
+        done = self.plot(curves)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout.strip(), str(self.folder / "oil.png"))
+        self.assertEqual((self.folder / "oil.png").read_bytes()[:4], b"\x89PNG")
+
+    def test_refuses_another_table_than_a_flow_curve(self):
+        self.folder.mkdir()
+        (self.folder / "oil.csv").write_text("time_s,step\n0,1\n")
+        done = self.plot(self.folder / "oil.csv")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("oil.csv is not what slagflow rheometry -o leaves", done.stderr)
+
     def test_the_fastest_particle_has_the_colour_of_the_maps_end(self):
         self.make_run([0], [5])
         self.assertEqual(self.plot(self.folder).returncode, 0)

@@ -46,7 +46,8 @@ TEST_F(Program, TellsVersionBuildAndDevice) {
 TEST_F(Program, HelpNamesTheCommands) {
   const Result result = call({"--help"});
   EXPECT_EQ(result.code, 0);
-  for (const char* part : {"run", "resume", "check", "info"}) EXPECT_THAT(result.out, HasSubstr(part));
+  for (const char* part : {"run", "resume", "check", "info", "rheometry"})
+    EXPECT_THAT(result.out, HasSubstr(part));
 }
 
 TEST_F(Program, BadArgumentsGiveTwo) {
