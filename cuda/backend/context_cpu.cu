@@ -1,5 +1,6 @@
 #include <omp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
@@ -28,9 +29,10 @@ Context::~Context() { release(workspace_, workspace_bytes_); }
 
 void* Context::allocate(std::size_t bytes, const char* what) {
   if (bytes == 0) return nullptr;
-  constexpr std::size_t line = 64;
-  void* memory =
-      bytes > std::size_t(1) << 48 ? nullptr : std::aligned_alloc(line, (bytes + line - 1) / line * line);
+  constexpr std::size_t line = 64, beyond = 256;  // whole registers may be read across the end
+  void* memory = bytes > std::size_t(1) << 48
+                     ? nullptr
+                     : std::aligned_alloc(line, (bytes + beyond + line - 1) / line * line);
   if (!memory)
     throw Error("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
                 std::to_string(allocated_) + " are in use");
@@ -61,7 +63,11 @@ void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
   if (bytes) std::memcpy(host, device, bytes);
 }
 void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
-  if (bytes) std::memcpy(to, from, bytes);
+  constexpr std::size_t piece = 1 << 18;  // bytes that one thread copies at a time
+#pragma omp parallel for schedule(static) if (bytes > piece)
+  for (std::size_t at = 0; at < bytes; at += piece)
+    std::memcpy(static_cast<char*>(to) + at, static_cast<const char*>(from) + at,
+                std::min(piece, bytes - at));
 }
 void Context::synchronize() {}
 
