@@ -1,13 +1,15 @@
 #include "backend/launch.hpp"
 #include "density.hpp"
+#include "lane_math.hpp"
 #include "smoothing/lucy.hpp"
 
 namespace slagflow {
 
 namespace {
 
+template <class T>  // Real or Lanes
 struct PairSums {
-  Real divergence = 0, diffusion = 0, shear = 0;
+  T divergence = 0, diffusion = 0, shear = 0;
 };
 
 // Particle i as its pairs see it.
@@ -31,34 +33,37 @@ struct DensityAndShear {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w,
                         (rest_density / c.flow.sound_speed_squared) * c.flow.gravity};
-    PairSums sums;
-    add_fluid(i, centre, sums);
+    PairSums<Real> sums = over_fluid(i, centre);
     add_walls(i, centre, sums);
     const Real rate = (rest_density + motion.w) * sums.divergence + c.flow.diffusion * sums.diffusion;
     excess[i] = motion.w + dt * rate;
     shear_rate[i] = std::sqrt(c.flow.shear_factor * sums.shear);
   }
 
-  HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
-    const Real h2 = square(c.flow.support);
+  HOST_DEVICE PairSums<Real> over_fluid(Index i, const Centre& centre) const {
+    const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
+                   hydrostatic = in_lanes(centre.hydrostatic);
     const Offset first = c.fluid_list.row(i);
     const Index pairs = c.fluid_list.length[i];
-    for (Index k = 0; k < pairs; ++k) {
-      const Index j = c.fluid_list.entry[first + k * ListView::stride()];
-      const Quad there = c.fluid.place[j];
-      const Vec3 d = box.separation(centre.place, xyz(there));
-      const Real r2 = dot(d, d);
-      if (r2 >= h2) continue;
-      const Quad other = c.fluid.motion[j];
-      const Real weight = there.w * smoothing.gradient(std::sqrt(r2));
-      const Real approach = dot(centre.velocity - xyz(other), d);
-      sums.divergence += weight * approach;
-      sums.diffusion -= weight * ((other.w - centre.excess) + dot(centre.hydrostatic, d));
-      sums.shear -= weight * approach * approach / (r2 + c.flow.softening);
+    PairSums<Lanes> sums;
+    for (Index k = 0; k < pairs; k += lane_count) {
+      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const QuadLanes there = gather(c.fluid.place, j);
+      const LaneVec3 d = box.separation(x, xyz(there));
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
+      if (!bits(near)) continue;
+      const QuadLanes other = gather(c.fluid.motion, j);
+      const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
+      const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
+      sums.divergence += share;
+      sums.diffusion -= weight * ((other.w - centre.excess) + dot(hydrostatic, d));
+      sums.shear -= share * approach / (r2 + c.flow.softening);
     }
+    return {total(sums.divergence), total(sums.diffusion), total(sums.shear)};
   }
 
-  HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
+  HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums<Real>& sums) const {
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; ++k) {

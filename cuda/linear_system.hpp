@@ -1,45 +1,57 @@
 // The linear system of the implicit viscous step, as the solvers see it: no smoothing functions, no rheology.
-//   (A u)_i = m_i u_i + B_i u_i + sum_j s_ij (s_ij . (u_i - u_j))    or, isotropic, |s_ij|^2 (u_i - u_j)
-// with s_ij = -s_ji, hence A symmetric and positive definite: A >= m.
+//   (A u)_i = m_i u_i + B_i u_i + sum_j w_ij d_ij (d_ij . (u_i - u_j))  or, isotropic, w_ij |d_ij|^2 (u_i -
+//   u_j)
+// with w_ij = w_ji >= 0 and d_ij = -d_ji, hence A symmetric and positive definite: A >= m. Of a pair only the
+// weight is stored; d_ij comes from the places, which a processor's cache has at hand.
 #pragma once
 
 #include "backend/buffer.hpp"
 #include "cells.hpp"
-#include "math.hpp"
+#include "lane_math.hpp"
+#include "neighbours.hpp"
 
 namespace slagflow {
 
-// One off-diagonal entry: the outer product of `s` couples particle i to `other`.
-struct alignas(4 * sizeof(Real)) Link {
-  Vec3 s;  // [sqrt(kg)]
-  Index other;
-};
-
 struct LinearSystem {
   Index size = 0;
-  Offset stride = 1;
-  Span<const Offset> slice;  // where the links of each slice of rows begin
-  int slice_width = 1;
-  Span<const Index> length;  // links of each row
-  Span<const Link> link;
+  ListView links;                    // the particles that row i may be linked to
+  Span<const Real> weight;           // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
+  Span<const Quad> place;            // xyz: [m]
   Span<const Quad> diagonal;         // xyz: diagonal of A [kg], w: mass [kg]
   Span<const Symmetric3> wall;       // B_i [kg]
   Span<const Quad> right_hand_side;  // [kg m/s]
+  PeriodicBox box;
   PairCoupling coupling = PairCoupling::radial;
 
-  HOST_DEVICE Offset row(Index i) const { return slice[i / slice_width] + i % slice_width; }
+  // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
+  template <class Visit>
+  HOST_DEVICE void for_links(Index i, Visit visit) const {
+    box.any() ? for_links_in(box, i, visit) : for_links_in(OpenBox{}, i, visit);
+  }
 
   // (A u)_i
   HOST_DEVICE Vec3 apply(Index i, Span<const Quad> u) const {
     const Vec3 here = xyz(u[i]);
-    Vec3 sum = diagonal[i].w * here + wall[i] * here;
-    const Offset first = row(i);
-    const Index n = length[i];
-    for (Index k = 0; k < n; ++k) {
-      const Link l = link[first + k * stride];
-      sum += couple(coupling, l.s, here - xyz(u[l.other]));
+    const LaneVec3 centre = in_lanes(here);
+    LaneVec3 sum;
+    for_links(i, [&](const Index* j, Lanes w, LaneVec3 d) {
+      sum += couple(coupling, w, d, centre - xyz(gather(u, j)));
+    });
+    return diagonal[i].w * here + wall[i] * here + total(sum);
+  }
+
+ private:
+  template <class Box, class Visit>
+  HOST_DEVICE void for_links_in(const Box& space, Index i, Visit visit) const {
+    const LaneVec3 centre = in_lanes(xyz(place[i]));
+    const Offset first = links.row(i);
+    const Index n = links.length[i];
+    for (Index k = 0; k < n; k += lane_count) {
+      const Offset at = first + k * ListView::stride();
+      const Lanes w = load_lanes(&weight[at]);
+      const Index* j = &links.entry[at];
+      visit(j, w, space.separation(centre, xyz(gather(place, j))));
     }
-    return sum;
   }
 };
 
@@ -51,14 +63,17 @@ struct RelaxationRow {
 
   HOST_DEVICE RelaxationRow(const LinearSystem& system, Index i, Span<const Quad> u) : block(system.wall[i]) {
     const Vec3 here = xyz(u[i]);
+    const LaneVec3 centre = in_lanes(here);
     const Real mass = system.diagonal[i].w;
-    residual = xyz(system.right_hand_side[i]) - mass * here - block * here;
-    const Offset first = system.row(i);
-    for (Index k = 0; k < system.length[i]; ++k) {
-      const Link l = system.link[first + k * system.stride];
-      residual -= couple(system.coupling, l.s, here - xyz(u[l.other]));
-      add_coupling(system.coupling, l.s, block);
-    }
+    LaneVec3 sum;
+    SymmetricMatrix3<Lanes> links;
+    system.for_links(i, [&](const Index* j, Lanes w, LaneVec3 d) {
+      sum += couple(system.coupling, w, d, centre - xyz(gather(u, j)));
+      add_coupling(system.coupling, w, d, links);
+    });
+    residual = xyz(system.right_hand_side[i]) - mass * here - block * here - total(sum);
+    block.xx += total(links.xx), block.yy += total(links.yy), block.zz += total(links.zz);
+    block.xy += total(links.xy), block.xz += total(links.xz), block.yz += total(links.yz);
     block.add_diagonal(mass);
   }
 };

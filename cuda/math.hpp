@@ -74,29 +74,35 @@ HOST_DEVICE inline Vec3 xyz(Quad q) { return {q.x, q.y, q.z}; }
 HOST_DEVICE inline Quad quad(Vec3 v, Real w) { return {v.x, v.y, v.z, w}; }
 
 // Symmetric 3x3 matrix.
-struct Symmetric3 {
-  Real xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+template <class T>
+struct SymmetricMatrix3 {
+  T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
 
-  HOST_DEVICE void add_outer(Vec3 s) {
-    xx += s.x * s.x, yy += s.y * s.y, zz += s.z * s.z;
-    xy += s.x * s.y, xz += s.x * s.z, yz += s.y * s.z;
+  HOST_DEVICE void add_outer(Vector3<T> s) { add_outer(T(Real(1)), s); }
+  // Adds weight s s^T.
+  HOST_DEVICE void add_outer(T weight, Vector3<T> s) {
+    const T x = weight * s.x, y = weight * s.y;
+    xx += x * s.x, yy += y * s.y, zz += weight * s.z * s.z;
+    xy += x * s.y, xz += x * s.z, yz += y * s.z;
   }
-  HOST_DEVICE void add_diagonal(Real d) { xx += d, yy += d, zz += d; }
-  HOST_DEVICE Vec3 operator*(Vec3 v) const {
+  HOST_DEVICE void add_diagonal(T d) { xx += d, yy += d, zz += d; }
+  HOST_DEVICE Vector3<T> operator*(Vector3<T> v) const {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }
 
   // Solution x of M x = b for a positive definite matrix, by its factors L D L^T.
-  HOST_DEVICE Vec3 solve(Vec3 b) const {
-    const Real l21 = xy / xx, l31 = xz / xx;
-    const Real d2 = yy - l21 * xy;
-    const Real l32 = (yz - l21 * xz) / d2;
-    const Real d3 = zz - l31 * xz - l32 * l32 * d2;
-    const Real y = b.y - l21 * b.x;
-    const Real z = (b.z - l31 * b.x - l32 * y) / d3;
-    const Real second = y / d2 - l32 * z;
+  HOST_DEVICE Vector3<T> solve(Vector3<T> b) const {
+    const T l21 = xy / xx, l31 = xz / xx;
+    const T d2 = yy - l21 * xy;
+    const T l32 = (yz - l21 * xz) / d2;
+    const T d3 = zz - l31 * xz - l32 * l32 * d2;
+    const T y = b.y - l21 * b.x;
+    const T z = (b.z - l31 * b.x - l32 * y) / d3;
+    const T second = y / d2 - l32 * z;
     return {b.x / xx - l21 * second - l31 * z, second, z};
   }
 };
+
+using Symmetric3 = SymmetricMatrix3<Real>;
 
 }  // namespace slagflow

@@ -1,10 +1,12 @@
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
+#include "lane_math.hpp"
 #include "neighbours.hpp"
 
 namespace slagflow {
 
-// Calls found(j) for each source within reach of target i, in ascending order within each run of cells.
+// Calls found(j, lanes) for sources j, j + 1, ... of which those whose bit is set in `lanes` are within reach
+// of target i, in ascending order within each run of cells.
 template <class Box>
 struct Search {
   SourceView sources;
@@ -17,11 +19,15 @@ struct Search {
   template <class Found>
   HOST_DEVICE void operator()(Index i, Found found) const {
     const Vec3 here = xyz(targets[i]);
+    const LaneVec3 centre = in_lanes(here);
     sources.grid.for_neighbour_cells(here, range, [&](Index first, Index last) {
       const Index end = sources.cell_start[last + 1];
-      for (Index j = sources.cell_start[first]; j < end; ++j) {
-        const Vec3 d = box.separation(here, xyz(sources.place[j]));
-        if (dot(d, d) < reach_squared && !(self && j == i)) found(j);
+      for (Index j = sources.cell_start[first]; j < end; j += lane_count) {
+        const LaneVec3 d = box.separation(centre, xyz(load_lanes(sources.place, j)));
+        unsigned lanes = bits(dot(d, d) < Lanes(reach_squared));
+        if (end - j < lane_count) lanes &= (1u << (end - j)) - 1;
+        if (self && i >= j && i < j + lane_count) lanes &= ~(1u << (i - j));
+        if (lanes) found(j, lanes);
       }
     });
   }
@@ -35,7 +41,7 @@ struct CountRow {
   Span<Index> length;
   HOST_DEVICE void operator()(Index i) const {
     Index n = 0;
-    search(i, [&](Index) { ++n; });
+    search(i, [&](Index, unsigned lanes) { n += number_of(lanes); });
     length[i] = n;
   }
 };
@@ -48,7 +54,7 @@ struct MeasureSlice {
     const Offset first = static_cast<Offset>(s) * slice_width;
     const Offset end = smaller(first + slice_width, length.size);
     for (Offset i = first; i < end; ++i) longest = larger(longest, length[i]);
-    slice_length[s] = static_cast<Offset>(longest) * slice_width;
+    slice_length[s] = whole_lanes(longest) * slice_width;
   }
 };
 
@@ -56,13 +62,15 @@ template <class Box>
 struct FillRow {
   Search<Box> search;
   Span<const Offset> slice;
+  Span<const Index> length;
   Span<Index> entry;
   HOST_DEVICE void operator()(Index i) const {
-    Offset at = slice[i / slice_width] + i % slice_width;
-    search(i, [&](Index j) {
-      entry[at] = j;
-      at += slice_width;
-    });
+    const Offset row = slice[i / slice_width] + i % slice_width;
+    Index* at = &entry[row];
+    const Index* end = at + whole_lanes(length[i]) * slice_width;
+    search(i, [&](Index j, unsigned lanes) { at = append<slice_width>(at, end, j, lanes); });
+    // What fills up the last lanes may be read, but counts for nothing.
+    for (Offset k = length[i]; k < whole_lanes(length[i]); ++k) entry[row + k] = search.self ? i : 0;
   }
 };
 
@@ -98,7 +106,7 @@ void NeighbourList::search_and_store(const Search<Box>& search) {
   context_.copy_to_host(&capacity_, slice_.span().data + slices, sizeof capacity_);
   constexpr Offset margin_percent = 1;
   entry_.resize(capacity_, margin_percent);
-  launch(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), entry_.span()});
+  launch(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), length_.span(), entry_.span()});
 }
 
 }  // namespace slagflow

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "backend/buffer.hpp"
+#include "backend/lanes.hpp"
 #include "cells.hpp"
 #include "math.hpp"
 #include "params.hpp"
@@ -10,12 +11,16 @@ namespace slagflow {
 
 // Rows of a list are stored in slices of `slice_width` targets whose k-th entries stand side by side, so that
 // the threads of a warp load neighbouring words; a width of one keeps each row in one piece, as a CPU wants
-// it.
+// it. A row takes room for whole lanes; the entries beyond its length are valid particle numbers.
 #if defined(SLAGFLOW_CUDA)
 inline constexpr int slice_width = 32;
 #else
 inline constexpr int slice_width = 1;
 #endif
+
+HOST_DEVICE inline Offset whole_lanes(Index entries) {
+  return (static_cast<Offset>(entries) + lane_count - 1) / lane_count * lane_count;
+}
 
 struct ListView {
   Span<const Offset> slice;  // where each slice begins

@@ -1,6 +1,7 @@
 // Constants of a run as the device bodies use them.
 #pragma once
 
+#include "backend/lanes.hpp"
 #include "backend/span.hpp"
 #include "math.hpp"
 #include "models.hpp"
@@ -12,26 +13,43 @@ namespace slagflow {
 struct PeriodicBox {
   Vec3 period, inverse;
 
-  bool any() const { return period.x != 0 || period.y != 0 || period.z != 0; }
-  HOST_DEVICE Vec3 separation(Vec3 a, Vec3 b) const {
-    Vec3 d = a - b;
-    d.x -= period.x * std::rint(d.x * inverse.x);
-    d.y -= period.y * std::rint(d.y * inverse.y);
-    d.z -= period.z * std::rint(d.z * inverse.z);
+  HOST_DEVICE bool any() const { return period.x != 0 || period.y != 0 || period.z != 0; }
+  template <class T>  // Real or Lanes
+  HOST_DEVICE Vector3<T> separation(Vector3<T> a, Vector3<T> b) const {
+    Vector3<T> d = a - b;
+    d.x -= period.x * nearest_integer(d.x * inverse.x);
+    d.y -= period.y * nearest_integer(d.y * inverse.y);
+    d.z -= period.z * nearest_integer(d.z * inverse.z);
     return d;
   }
 };
 
 struct OpenBox {
-  HOST_DEVICE Vec3 separation(Vec3 a, Vec3 b) const { return a - b; }
+  template <class T>
+  HOST_DEVICE Vector3<T> separation(Vector3<T> a, Vector3<T> b) const {
+    return a - b;
+  }
 };
 
-// How a pair of weight |s|^2 couples two velocities: along the line between the particles, or all components
-// alike.
+// How a pair at separation d couples two velocities, w d (d . difference) or w |d|^2 difference: along the
+// line between the particles, or all components alike.
 enum class PairCoupling { radial, isotropic };
+
+template <class T>
+HOST_DEVICE Vector3<T> couple(PairCoupling coupling, T weight, Vector3<T> d, Vector3<T> difference) {
+  return coupling == PairCoupling::radial ? (weight * dot(d, difference)) * d
+                                          : (weight * dot(d, d)) * difference;
+}
 
 HOST_DEVICE inline Vec3 couple(PairCoupling coupling, Vec3 s, Vec3 difference) {
   return coupling == PairCoupling::radial ? dot(s, difference) * s : dot(s, s) * difference;
+}
+template <class T>
+HOST_DEVICE void add_coupling(PairCoupling coupling, T weight, Vector3<T> d, SymmetricMatrix3<T>& block) {
+  if (coupling == PairCoupling::radial)
+    block.add_outer(weight, d);
+  else
+    block.add_diagonal(weight * dot(d, d));
 }
 HOST_DEVICE inline void add_coupling(PairCoupling coupling, Vec3 s, Symmetric3& block) {
   if (coupling == PairCoupling::radial)

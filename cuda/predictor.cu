@@ -1,4 +1,5 @@
 #include "backend/launch.hpp"
+#include "lane_math.hpp"
 #include "predictor.hpp"
 #include "smoothing/lucy.hpp"
 
@@ -15,49 +16,51 @@ struct PredictAndAssemble {
   PredictorOutput out;
 
   // Pressure part of a pair; both signs of pressure keep a pair apart when it is closer than the spacing.
-  HOST_DEVICE Real pressure_term(Real own, Real other, Real r) const {
-    Real sum = own + other;
-    if (r < c.flow.spacing) {
-      const Real ratio = smoothing.value(r) * c.flow.pairing_reference;
-      sum += c.flow.anti_pairing * (square(square(ratio)) - 1) * (std::fabs(own) + std::fabs(other));
-    }
-    return sum;
+  template <class T>  // Real or Lanes
+  HOST_DEVICE T pressure_term(T own, T other, T r) const {
+    const T sum = own + other;
+    const auto close = r < T(c.flow.spacing);
+    if (!bits(close)) return sum;
+    const T ratio = smoothing.value(r) * c.flow.pairing_reference;
+    const T apart = c.flow.anti_pairing * (square(square(ratio)) - Real(1));
+    return sum + select(close, apart * (magnitude(own) + magnitude(other)), T(0));
   }
 
-  HOST_DEVICE Vec3 pair_diagonal(Vec3 s) const {
-    if (c.flow.coupling == PairCoupling::radial) return {square(s.x), square(s.y), square(s.z)};
-    const Real weight = dot(s, s);
-    return {weight, weight, weight};
+  // w d_k^2 along axis k, or w |d|^2.
+  template <class T>
+  HOST_DEVICE Vector3<T> pair_diagonal(T weight, Vector3<T> d) const {
+    if (c.flow.coupling == PairCoupling::radial)
+      return {weight * square(d.x), weight * square(d.y), weight * square(d.z)};
+    const T sum = weight * dot(d, d);
+    return {sum, sum, sum};
   }
 
   HOST_DEVICE void operator()(Index i) const {
     const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
-    const Real h2 = square(c.flow.support);
-    const Real factor = implicit_dt * c.flow.operator_factor * own.z;
-    Vec3 acceleration = c.flow.gravity + c.flow.body_acceleration;
-    Vec3 diagonal{own.w, own.w, own.w};
-
+    const Real factor = -2 * implicit_dt * c.flow.operator_factor;
+    LaneVec3 acceleration, diagonal;
     const Offset first = c.fluid_list.row(i);
-    Offset at = first;
     const Index entries = c.fluid_list.length[i];
-    for (Index k = 0; k < entries; ++k) {
-      const Index j = c.fluid_list.entry[first + k * ListView::stride()];
-      const Vec3 d = box.separation(x, xyz(c.fluid.place[j]));
-      const Real r2 = dot(d, d);
-      if (r2 >= h2) continue;
-      const Quad other = c.fluid.state[j];
-      const Real r = std::sqrt(r2);
-      const Real f = smoothing.gradient(r);
-      acceleration -= (other.w * pressure_term(own.x, other.x, r) * f) * d;
-      const Real mean = 2 * own.y * other.y / (own.y + other.y);
-      const Vec3 s = std::sqrt(-factor * mean * other.z * f / (r2 + c.flow.softening)) * d;
-      diagonal += pair_diagonal(s);
-      out.link[at] = {s, j};
-      at += ListView::stride();
+    for (Index k = 0; k < entries; k += lane_count) {
+      const Offset at = first + k * ListView::stride();
+      const Index* j = &c.fluid_list.entry[at];
+      const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.fluid.place, j)));
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
+      Lanes weight = 0;
+      if (bits(near)) {
+        const QuadLanes other = gather(c.fluid.state, j);
+        const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
+        acceleration -= (other.w * f * pressure_term(Lanes(own.x), other.x, r)) * d;
+        const Lanes over = (own.y + other.y) * (r2 + c.flow.softening);
+        weight = (factor * (own.z * other.z) * f) * (own.y * other.y) / over;  // the same bits for j and i
+        diagonal += pair_diagonal(weight, d);
+      }
+      store_lanes(&out.weight[at], weight);
     }
-    out.length[i] = static_cast<Index>((at - first) / ListView::stride());
-    walls(i, x, own, acceleration, diagonal);
+    walls(i, x, own, c.flow.gravity + c.flow.body_acceleration + total(acceleration),
+          Vec3{own.w, own.w, own.w} + total(diagonal));
   }
 
   HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {

@@ -7,11 +7,10 @@
 
 namespace slagflow {
 
-// What the sweep writes, one entry per fluid particle; links per pair.
+// What the sweep writes, one entry per fluid particle; weights per pair.
 struct PredictorOutput {
   Span<Quad> predicted;        // xyz: u* [m/s]
-  Span<Index> length;          // links of each row
-  Span<Link> link;             // laid out as the fluid list
+  Span<Real> weight;           // w_ij [kg/m^2], laid out as the fluid list; 0 beyond the support
   Span<Quad> diagonal;         // xyz: diagonal of A, w: mass [kg]
   Span<Symmetric3> wall;       // wall block B [kg]
   Span<Quad> right_hand_side;  // xyz: m u* + wall part [kg m/s]
@@ -19,11 +18,10 @@ struct PredictorOutput {
 
 //   u*_i = v_i + dt (g - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij) F_ij x_ij)
 //   pairing_ij = eps [(W(r)/W(dx))^4 - 1]_+ (|p_i|/rho_i^2 + |p_j|/rho_j^2)
-// and, for the radial operator, with w_ij = C 2(d+2) eta_ij V_i V_j |F_ij| / r^2 (J. J. Monaghan's radial
-// viscous term in the form of M. Weiler et al., Comput. Graph. Forum 37 (2018) 135) and the harmonic mean
-// eta_ij,
-//   s_ij = sqrt(theta dt w_ij) x_ij.
-// The laplacian operator has w_ij = C 2 eta_ij V_i V_j |F_ij|, with |s_ij|^2 its share of the matrix.
+// and, for the radial operator, with the harmonic mean eta_ij,
+//   w_ij = theta dt C 2(d+2) eta_ij V_i V_j |F_ij| / r^2
+// (J. J. Monaghan's radial viscous term in the form of M. Weiler et al., Comput. Graph. Forum 37 (2018) 135).
+// The laplacian operator has w_ij |x_ij|^2 = theta dt C 2 eta_ij V_i V_j |F_ij|.
 // Wall pairs weigh more by the no-slip factor and go into the block B_i. Needs theta > 0.
 void predict_and_assemble(Context&, const PairContext&, const PredictorOutput&, Real dt, Real theta);
 

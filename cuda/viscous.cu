@@ -71,20 +71,19 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       diagonal_(c, "matrix diagonal"),
       right_hand_side_(c, "right hand side"),
       wall_(c, "wall blocks"),
-      length_(c, "link counts"),
-      link_(c, "links"),
+      weight_(c, "link weights"),
       work_(c) {}
 
 void ViscousStep::resize(Index count, Offset pair_capacity) {
   constexpr Offset margin_percent = 1;
   predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
-  wall_.resize(count), length_.resize(count), link_.resize(pair_capacity, margin_percent);
+  wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
 }
 
 LinearSystem ViscousStep::system(const PairContext& c) const {
-  return {c.fluid.count,           ListView::stride(), c.fluid_list.slice, slice_width,
-          length_.span(),          link_.span(),       diagonal_.span(),   wall_.span(),
-          right_hand_side_.span(), c.flow.coupling};
+  return {c.fluid.count,    c.fluid_list, weight_.span(),          c.fluid.place,
+          diagonal_.span(), wall_.span(), right_hand_side_.span(), c.box,
+          c.flow.coupling};
 }
 
 SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
@@ -94,8 +93,8 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
   const auto theta = static_cast<Real>(numerics_.theta);
   {
     Section timer(context_, "predictor and assembly");
-    const PredictorOutput out{predicted_.span(), length_.span(), link_.span(),
-                              diagonal_.span(),  wall_.span(),   right_hand_side_.span()};
+    const PredictorOutput out{predicted_.span(), weight_.span(), diagonal_.span(), wall_.span(),
+                              right_hand_side_.span()};
     predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), theta);
   }
   Section timer(context_, "viscous solve");

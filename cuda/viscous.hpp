@@ -36,8 +36,7 @@ class ViscousStep {
   NumericsSetup numerics_;
   Buffer<Quad> predicted_, velocity_, diagonal_, right_hand_side_;
   Buffer<Symmetric3> wall_;
-  Buffer<Index> length_;
-  Buffer<Link> link_;
+  Buffer<Real> weight_;
   SolverWorkspace work_;
 };
 

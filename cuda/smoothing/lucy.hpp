@@ -3,6 +3,7 @@
 // L. B. Lucy, Astron. J. 82 (1977) 1013.
 #pragma once
 
+#include "backend/lanes.hpp"
 #include "math.hpp"
 
 namespace slagflow {
@@ -22,13 +23,18 @@ struct Lucy {
     slope = static_cast<Real>(-12 * sigma / (h * h));
   }
 
-  HOST_DEVICE Real value(Real r) const {
-    const Real q = r * inverse;
-    return q < 1 ? normalisation * (1 + 3 * q) * (1 - q) * square(1 - q) : Real(0);
+  // T: Real or Lanes.
+  template <class T>
+  HOST_DEVICE T value(T r) const {
+    const T q = r * inverse, one = Real(1);
+    return select(q < one, normalisation * (one + Real(3) * q) * (one - q) * square(one - q), T(0));
   }
 
   // F = (1/r) dW/dr, so that grad W = F x_ij. Finite at r = 0; for r < h only.
-  HOST_DEVICE Real gradient(Real r) const { return slope * square(1 - r * inverse); }
+  template <class T>
+  HOST_DEVICE T gradient(T r) const {
+    return slope * square(Real(1) - r * inverse);
+  }
 };
 
 }  // namespace slagflow

@@ -210,6 +210,22 @@ TEST_F(Neighbours, OfACrowdedCellAreNotTruncated) {
   EXPECT_GE(list.capacity(), 2000 * 1999);
 }
 
+// The pair loops read whole registers of entries, those beyond the end of a row too.
+TEST_F(Neighbours, EntriesBeyondTheEndOfARowAreSources) {
+  const Space s;
+  const SourceView sources = sort(s, random_points(300, 17, {0, 0, 0}, {1, 1, 1}));
+  NeighbourList list(context_, "pairs");
+  list.build(sources, wall_.place.span(), s.box(), static_cast<Real>(s.reach), NeighbourList::Pairs::self);
+  const ListView view = list.view();
+  const std::vector<Index> entry = download(context_, view.entry), length = download(context_, view.length);
+  const std::vector<Offset> slice = download(context_, view.slice);
+  for (std::size_t i = 0; i < length.size(); ++i) {
+    const Offset row = slice[i / slice_width] + static_cast<Offset>(i) % slice_width;
+    for (Offset k = length[i]; k < whole_lanes(length[i]); ++k)
+      EXPECT_EQ(entry[static_cast<std::size_t>(row + k)], static_cast<Index>(i)) << "row " << i;
+  }
+}
+
 TEST_F(Neighbours, ListsCanBeBuiltAgainSmallerAndLarger) {
   const Space s;
   NeighbourList list(context_, "pairs");

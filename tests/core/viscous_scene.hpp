@@ -15,23 +15,19 @@ struct DeviceSystem {
         diagonal(s.context, "diagonal", s.fluid.count),
         right_hand_side(s.context, "right hand side", s.fluid.count),
         wall(s.context, "walls", s.fluid.count),
-        length(s.context, "lengths", s.fluid.count),
-        link(s.context, "links", s.fluid_list.capacity()) {}
+        weight(s.context, "weights", s.fluid_list.capacity()) {}
 
   PredictorOutput output() {
-    return {predicted.span(), length.span(), link.span(),
-            diagonal.span(),  wall.span(),   right_hand_side.span()};
+    return {predicted.span(), weight.span(), diagonal.span(), wall.span(), right_hand_side.span()};
   }
   LinearSystem system(const Scene& s) const {
-    return {s.fluid.count,   ListView::stride(), s.fluid_list.view().slice,
-            slice_width,     length.span(),      link.span(),
-            diagonal.span(), wall.span(),        right_hand_side.span()};
+    return {s.fluid.count, s.fluid_list.view(),    weight.span(), view(s.fluid).place, diagonal.span(),
+            wall.span(),   right_hand_side.span(), s.box,         s.flow.coupling};
   }
 
   Buffer<Quad> predicted, diagonal, right_hand_side;
   Buffer<Symmetric3> wall;
-  Buffer<Index> length;
-  Buffer<Link> link;
+  Buffer<Real> weight;
 };
 
 // The same, downloaded and read in the order of ids.
@@ -43,11 +39,14 @@ class HostSystem {
         right_hand_side(s.by_id(d.right_hand_side.span())),
         id_(download(s.context, s.fluid.id.span())),
         slice_(download(s.context, s.fluid_list.view().slice)),
-        length_(download(s.context, d.length.span())),
-        link_(download(s.context, d.link.span())),
+        length_(download(s.context, s.fluid_list.view().length)),
+        entry_(download(s.context, s.fluid_list.view().entry)),
+        weight_(download(s.context, d.weight.span())),
+        position_(download(s.context, s.fluid.place.span())),
         wall_(download(s.context, d.wall.span())),
         device_diagonal_(download(s.context, d.diagonal.span())),
-        place_(id_.size()) {
+        place_(id_.size()),
+        box_(s.box) {
     for (std::size_t row = 0; row < id_.size(); ++row) place_[static_cast<std::size_t>(id_[row])] = row;
   }
 
@@ -71,12 +70,14 @@ class HostSystem {
           a(3 * i + static_cast<std::size_t>(k), 3 * i + static_cast<std::size_t>(l)) =
               static_cast<double>((b * axis[l])[k]) +
               (k == l ? static_cast<double>(s.diagonal[number].w) : 0);
-      for (Index k = 0; k < s.length[number]; ++k) {
-        const Link link = s.link[s.row(number) + k * s.stride];
-        const auto j = static_cast<std::size_t>(id_[static_cast<std::size_t>(link.other)]);
-        const reference::Vec d = to_host(quad(link.s, 0));
-        reference::add_block(a, i, i, 1, d);
-        reference::add_block(a, i, j, -1, d);
+      for (Index k = 0; k < s.links.length[number]; ++k) {
+        const Offset at = s.links.row(number) + k * ListView::stride();
+        const auto other = static_cast<std::size_t>(s.links.entry[at]);
+        const auto j = static_cast<std::size_t>(id_[other]);
+        const Vec3 d = box_.separation(xyz(position_[row]), xyz(position_[other]));
+        const reference::Vec root = std::sqrt(static_cast<double>(s.weight[at])) * to_host(quad(d, 0));
+        reference::add_block(a, i, i, 1, root);
+        reference::add_block(a, i, j, -1, root);
       }
     }
     return a;
@@ -91,23 +92,24 @@ class HostSystem {
  private:
   LinearSystem system() const {
     return {static_cast<Index>(id_.size()),
-            ListView::stride(),
-            host_span(slice_),
-            slice_width,
-            host_span(length_),
-            host_span(link_),
+            {host_span(slice_), host_span(length_), host_span(entry_)},
+            host_span(weight_),
+            host_span(position_),
             host_span(device_diagonal_),
             host_span(wall_),
-            {}};
+            {},
+            box_};
   }
 
   std::vector<Index> id_;
   std::vector<Offset> slice_;
-  std::vector<Index> length_;
-  std::vector<Link> link_;
+  std::vector<Index> length_, entry_;
+  std::vector<Real> weight_;
+  std::vector<Quad> position_;
   std::vector<Symmetric3> wall_;
   std::vector<Quad> device_diagonal_;
   std::vector<std::size_t> place_;
+  PeriodicBox box_;
 };
 
 inline HostSystem assemble(Scene& scene, double dt, double theta) {

@@ -1,0 +1,206 @@
+// Several pairs at once: `Lanes` holds one number for each of lane_count pairs in a vector register of a CPU.
+// A GPU has a thread for each particle and takes the pairs one by one: one lane, and Lanes is Real. Bodies
+// are written for either. The vector types are those of GCC and Clang, on any instruction set; AVX and
+// AVX-512 get shorter ways of gathering and appending.
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+#include "backend/platform.hpp"
+
+#if !defined(SLAGFLOW_CUDA) && defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+namespace slagflow {
+
+// The same operations on a single number.
+HOST_DEVICE inline Real select(bool mask, Real a, Real b) { return mask ? a : b; }
+HOST_DEVICE inline Real root(Real a) { return std::sqrt(a); }
+HOST_DEVICE inline Real nearest_integer(Real a) { return std::rint(a); }
+HOST_DEVICE inline Real magnitude(Real a) { return std::fabs(a); }
+HOST_DEVICE inline unsigned bits(bool mask) { return mask ? 1 : 0; }
+
+#if defined(SLAGFLOW_CUDA)
+
+inline constexpr int lane_count = 1;
+using Lanes = Real;
+using LaneMask = bool;
+
+HOST_DEVICE inline Index number_of(unsigned lanes) { return static_cast<Index>(lanes); }
+HOST_DEVICE inline Real total(Real a) { return a; }
+HOST_DEVICE inline bool first_lanes(Index n) { return n > 0; }
+HOST_DEVICE inline Real load_lanes(const Real* from) { return *from; }
+HOST_DEVICE inline void store_lanes(Real* to, Real a) { *to = a; }
+HOST_DEVICE inline Real gather(const Real* from, const Index* at) { return from[*at]; }
+template <class Block>
+HOST_DEVICE void gather(const Block* from, const Index* at, Real (&parts)[4]) {
+  const Block block = from[*at];
+  parts[0] = block.x, parts[1] = block.y, parts[2] = block.z, parts[3] = block.w;
+}
+template <int stride>
+HOST_DEVICE Index* append(Index* to, const Index*, Index value, unsigned lanes) {
+  if (lanes) *to = value;
+  return lanes ? to + stride : to;
+}
+
+#else
+
+#if defined(__AVX__)
+inline constexpr int lane_bytes = 32;
+#else
+inline constexpr int lane_bytes = 16;
+#endif
+inline constexpr int lane_count = lane_bytes / static_cast<int>(sizeof(Real));
+
+struct LaneMask {
+  using Integer = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  typedef Integer Vector __attribute__((vector_size(lane_bytes)));
+  Vector v;
+  friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
+};
+
+struct Lanes {
+  typedef Real Vector __attribute__((vector_size(lane_bytes)));
+  Vector v{};
+
+  Lanes() = default;
+  Lanes(Real a) : v(a - Vector{}) {}
+  explicit Lanes(Vector a) : v(a) {}
+
+  Lanes& operator+=(Lanes b) { return v += b.v, *this; }
+  Lanes& operator-=(Lanes b) { return v -= b.v, *this; }
+  Lanes& operator*=(Lanes b) { return v *= b.v, *this; }
+  friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v); }
+  friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v); }
+  friend Lanes operator-(Lanes a) { return Lanes(-a.v); }
+  friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v); }
+  friend Lanes operator/(Lanes a, Lanes b) { return Lanes(a.v / b.v); }
+  friend LaneMask operator<(Lanes a, Lanes b) { return {a.v < b.v}; }
+  friend LaneMask operator>(Lanes a, Lanes b) { return {a.v > b.v}; }
+};
+
+// Lane by lane a where the mask holds, else b.
+inline Lanes select(LaneMask mask, Lanes a, Lanes b) { return Lanes(mask.v ? a.v : b.v); }
+inline Lanes magnitude(Lanes a) { return Lanes(a.v < 0 ? -a.v : a.v); }
+inline Lanes smaller(Lanes a, Lanes b) { return Lanes(b.v < a.v ? b.v : a.v); }
+inline Lanes larger(Lanes a, Lanes b) { return Lanes(a.v < b.v ? b.v : a.v); }
+
+inline Lanes root(Lanes a) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Real) == 4)
+    return Lanes((Lanes::Vector)_mm256_sqrt_ps((__m256)a.v));
+  else
+    return Lanes((Lanes::Vector)_mm256_sqrt_pd((__m256d)a.v));
+#else
+  for (int k = 0; k < lane_count; ++k) a.v[k] = std::sqrt(a.v[k]);
+  return a;
+#endif
+}
+
+inline Lanes nearest_integer(Lanes a) {
+#if defined(__AVX__)
+  constexpr int mode = _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC;
+  if constexpr (sizeof(Real) == 4)
+    return Lanes((Lanes::Vector)_mm256_round_ps((__m256)a.v, mode));
+  else
+    return Lanes((Lanes::Vector)_mm256_round_pd((__m256d)a.v, mode));
+#else
+  for (int k = 0; k < lane_count; ++k) a.v[k] = std::rint(a.v[k]);
+  return a;
+#endif
+}
+
+// A bit for each lane in which the mask holds; lane 0 is the lowest.
+inline unsigned bits(LaneMask mask) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Real) == 4)
+    return static_cast<unsigned>(_mm256_movemask_ps((__m256)mask.v));
+  else
+    return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask.v));
+#else
+  unsigned result = 0;
+  for (int k = 0; k < lane_count; ++k) result |= (mask.v[k] ? 1u : 0u) << k;
+  return result;
+#endif
+}
+
+inline Index number_of(unsigned lanes) { return __builtin_popcount(lanes); }
+
+// Sum over the lanes, always in the same order.
+inline Real total(Lanes a) {
+  Real sum = 0;
+  for (int k = 0; k < lane_count / 2; ++k) sum += a.v[k] + a.v[k + lane_count / 2];
+  return sum;
+}
+
+// Holds in the lanes below n.
+inline LaneMask first_lanes(Index n) {
+  LaneMask::Vector number;
+  for (int k = 0; k < lane_count; ++k) number[k] = k;
+  return {number < static_cast<LaneMask::Integer>(n)};
+}
+
+inline Lanes load_lanes(const Real* from) {
+  Lanes a;
+  __builtin_memcpy(&a.v, from, sizeof a.v);
+  return a;
+}
+inline void store_lanes(Real* to, Lanes a) { __builtin_memcpy(to, &a.v, sizeof a.v); }
+
+// Element at[k] in lane k.
+inline Lanes gather(const Real* from, const Index* at) {
+  Lanes a;
+  for (int k = 0; k < lane_count; ++k) a.v[k] = from[at[k]];
+  return a;
+}
+
+// The numbers x, y, z, w of element at[k] in lane k of the four parts.
+template <class Block>
+inline void gather(const Block* from, const Index* at, Lanes (&parts)[4]) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Real) == 4) {
+    // 128 bits each, in pairs, then transposed: half the work of the gather instruction.
+    static_assert(sizeof(Block) == 4 * sizeof(Real) && alignof(Block) == sizeof(Block));
+    const auto* block = reinterpret_cast<const __m128*>(from);
+    const auto pair = [&](int k) {
+      return _mm256_insertf128_ps(_mm256_castps128_ps256(block[at[k]]), block[at[k + 4]], 1);
+    };
+    const __m256 a = pair(0), b = pair(1), c = pair(2), d = pair(3);
+    const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d);
+    const __m256 ab_high = _mm256_unpackhi_ps(a, b), cd_high = _mm256_unpackhi_ps(c, d);
+    parts[0].v = (Lanes::Vector)_mm256_shuffle_ps(ab, cd, 0x44);
+    parts[1].v = (Lanes::Vector)_mm256_shuffle_ps(ab, cd, 0xee);
+    parts[2].v = (Lanes::Vector)_mm256_shuffle_ps(ab_high, cd_high, 0x44);
+    parts[3].v = (Lanes::Vector)_mm256_shuffle_ps(ab_high, cd_high, 0xee);
+    return;
+  }
+#endif
+  for (int k = 0; k < lane_count; ++k) {
+    const Block block = from[at[k]];
+    parts[0].v[k] = block.x, parts[1].v[k] = block.y, parts[2].v[k] = block.z, parts[3].v[k] = block.w;
+  }
+}
+
+// Writes value + k for each lane k that is set; returns the place after the last. Nothing is written from
+// `end` on.
+template <int stride>
+inline Index* append(Index* to, const Index* end, Index value, unsigned lanes) {
+  static_assert(stride == 1);
+#if defined(__AVX512VL__)
+  if (to + 8 <= end) {
+    const __m256i numbers =
+        _mm256_add_epi32(_mm256_set1_epi32(value), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), numbers));
+    return to + number_of(lanes);
+  }
+#endif
+  for (; lanes && to < end; lanes &= lanes - 1) *to++ = value + __builtin_ctz(lanes);
+  return to;
+}
+
+#endif
+
+}  // namespace slagflow
