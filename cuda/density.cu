@@ -80,7 +80,8 @@ struct DensityAndShear {
       if (pressure > -c.flow.tension_limit)
         sums.diffusion -=
             weight * ((pressure / c.flow.sound_speed_squared - centre.excess) + dot(centre.hydrostatic, d));
-      const Real stick = other.w * no_slip_factor(d, c.wall.normal[j], c.wall.back[j], c.flow.spacing);
+      if (other.w < 0) continue;
+      const Real stick = no_slip_factor({d, c.wall.normal[j], c.wall.back[j]}, c.flow.spacing, other.w);
       sums.shear -= stick * weight * approach * approach / (r2 + c.flow.softening);
     }
   }

@@ -86,13 +86,23 @@ struct FlowConstants {
 // Morris' no-slip: a wall particle at depth d_w below the surface stands for the velocity that makes the
 // velocity linear through the surface, i.e. the pair weight grows by 1 + d_w/d_f, d_f the fluid particle's
 // distance from the surface. J. P. Morris et al., J. Comput. Phys. 136 (1997) 214.
-// normal: xyz unit normal, w depth [m]; back: the same of the opposite face of a thin plate, w = 0 without
-// one.
-HOST_DEVICE inline Real no_slip_factor(Vec3 fluid_minus_wall, Quad normal, Quad back, Real spacing) {
-  const bool behind = back.w > 0 && dot(fluid_minus_wall, xyz(back)) > back.w;
-  const Quad face = behind ? back : normal;
-  const Real d_f = dot(fluid_minus_wall, xyz(face)) - face.w;
-  return smaller(Real(3), 1 + face.w / larger(d_f, Real(0.25) * spacing));
+// With a slip length b (C. L. M. H. Navier, Mem. Acad. R. Sci. 6 (1823) 389: slip velocity = b times the
+// velocity gradient) the line vanishes at depth b: the weight grows by (d_f + d_w)/(d_f + b). The factor
+// scales all of the pair, so that the matrix stays symmetric and b -> infinity is free slip; what keeps the
+// fluid off a slippery wall is pressure.
+struct WallPairGeometry {
+  Vec3 fluid_minus_wall;
+  Quad normal;  // xyz unit normal, w depth of the wall particle [m]
+  Quad back;    // the same of the opposite face of a thin plate, w = 0 without one
+};
+
+// `slip_length`: b [m] >= 0, 0 without slip.
+HOST_DEVICE inline Real no_slip_factor(const WallPairGeometry& pair, Real spacing, Real slip_length) {
+  const Vec3 d = pair.fluid_minus_wall;
+  const bool behind = pair.back.w > 0 && dot(d, xyz(pair.back)) > pair.back.w;
+  const Quad face = behind ? pair.back : pair.normal;
+  const Real d_f = larger(dot(d, xyz(face)) - face.w, Real(0.25) * spacing);
+  return smaller(Real(3), 1 + (face.w - slip_length) / (d_f + slip_length));
 }
 
 }  // namespace slagflow

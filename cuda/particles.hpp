@@ -54,7 +54,7 @@ struct WallArrays {
   Buffer<Quad> place;     // xyz: position [m] relative to the domain's lower corner
   Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
   Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
-  Buffer<Quad> velocity;  // xyz: velocity [m/s], w: 1 no slip, 0 free slip
+  Buffer<Quad> velocity;  // xyz: velocity of the surface [m/s], w: slip length [m], 0 no slip, < 0 free slip
   Buffer<Real> pressure;  // [Pa]
   Buffer<Index> id;
 

@@ -80,8 +80,8 @@ struct PredictAndAssemble {
       const Real other = c.wall.pressure[j] / square(density);
       acceleration -= (own.w * pressure_term(own.x, other, r) * f) * d;
       const Quad motion = c.wall.velocity[j];
-      if (motion.w == 0) continue;
-      const Real stick = no_slip_factor(d, c.wall.normal[j], c.wall.back[j], c.flow.spacing);
+      if (motion.w < 0) continue;
+      const Real stick = no_slip_factor({d, c.wall.normal[j], c.wall.back[j]}, c.flow.spacing, motion.w);
       const Vec3 s = std::sqrt(-factor * stick * f / (r2 + c.flow.softening)) * d;
       add_coupling(c.flow.coupling, s, block);
       drag += couple(c.flow.coupling, s, xyz(motion));

@@ -36,11 +36,24 @@ struct WallParticles {
   std::vector<double> back_depth;  // [m]
 };
 
-enum class WallSlip { no_slip, free_slip };
+enum class WallSlip { no_slip, free_slip, partial_slip };
+
+// A rigid velocity field: velocity + angular_velocity x (position - center).
+struct RigidVelocity {
+  Vec3d velocity;          // [m/s]
+  Vec3d angular_velocity;  // [rad/s]
+  Vec3d center;            // [m]
+
+  Vec3d at(Vec3d position) const { return velocity + cross(angular_velocity, position - center); }
+  bool zero() const { return norm(velocity) == 0 && norm(angular_velocity) == 0; }
+};
 
 struct WallBody {
   std::string name;
   WallSlip slip = WallSlip::no_slip;
+  double slip_length = 0;  // [m], of partial slip
+  // Of the material, along the surface; the shape stays where it is, as in belts and turning cylinders.
+  RigidVelocity surface{};
 };
 
 enum class Departure { remove, stop };  // what happens to a particle that leaves through a face

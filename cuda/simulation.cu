@@ -30,6 +30,16 @@ CellGrid cover_domain(const SimulationSetup& s) {
   return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
 }
 
+// What WallArrays::velocity holds. The surface's velocity is that of the point of the surface above the wall
+// particle, and only what lies along the surface: a wall that keeps its shape does not move the fluid out of
+// its way.
+Quad wall_velocity(const WallBody& body, Vec3d position, Vec3d normal, double depth) {
+  Vec3d v = body.surface.at(position + depth * normal);
+  v -= dot(v, normal) * normal;
+  const double slip = body.slip == WallSlip::free_slip ? -1 : body.slip_length;
+  return quad(to_real(v), static_cast<Real>(slip));
+}
+
 }  // namespace
 
 Simulation::State::State(const SimulationSetup& s)
@@ -97,11 +107,11 @@ void Simulation::State::upload_walls() {
   std::vector<Quad> place(n), normal(n), back(n), velocity(n);
   std::vector<Index> id(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const bool sticks = setup.bodies[w.body[i]].slip == WallSlip::no_slip;
     place[i] = quad(to_real(w.position[i] - setup.domain.lower), 0);
     normal[i] = quad(to_real(w.normal[i]), static_cast<Real>(w.depth[i]));
     if (!w.back_depth.empty()) back[i] = quad(to_real(w.back_normal[i]), static_cast<Real>(w.back_depth[i]));
-    velocity[i] = quad({}, sticks ? Real(1) : Real(0));
+    velocity[i] = wall_velocity(setup.bodies[w.body[i]], w.position[i], w.normal[i], w.depth[i]);
+    wall_speed = larger(wall_speed, static_cast<double>(norm(xyz(velocity[i]))));
     id[i] = static_cast<Index>(i);
   }
   wall.resize(static_cast<Index>(n));
@@ -162,10 +172,10 @@ PairContext Simulation::State::pairs() const {
 }
 
 // The velocity that gravity adds in a step, against which the error of the solve is measured. Without gravity
-// a ten-thousandth of the largest speed stands for it.
+// a ten-thousandth of the largest speed, of the fluid or a wall, stands for it.
 double Simulation::State::kick() {
   const double g = norm(setup.gravity + setup.body_acceleration);
-  return g > 0 ? g * dt : 1e-4 * largest_speed(context, fluid, scratch);
+  return g > 0 ? g * dt : 1e-4 * larger(wall_speed, largest_speed(context, fluid, scratch));
 }
 
 void Simulation::State::solve() {

@@ -36,6 +36,7 @@ struct Simulation::State {
   double time = 0, dt = 0, displacement = 0, dissipated = 0;
   std::int64_t steps = 0, builds = 0;
   double start_mass = 0;
+  double wall_speed = 0;  // largest [m/s]
   DepartureCounts departed;
   SolveReport report;
   SolverTotals solver;

@@ -56,9 +56,11 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
 }
 
 // Kinetic, stored and dissipated energy can only fall. The measure of what is a growth: kinetic and
-// dissipated energy themselves, and lifting all fluid by one spacing. Departures take energy with them, and
-// on a periodic axis along the force the potential has no single value.
+// dissipated energy themselves, and lifting all fluid by one spacing. Departures take energy with them, on a
+// periodic axis along the force the potential has no single value, and walls that move do work.
 void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
+  for (const WallBody& body : setup_.bodies)
+    if (!body.surface.zero()) return;
   const Vec3d force = setup_.gravity + setup_.body_acceleration;
   for (int k = 0; k < 3; ++k)
     if (setup_.domain.periodic[static_cast<std::size_t>(k)] && force[k] != 0) return;

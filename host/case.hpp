@@ -78,6 +78,8 @@ struct RegionSpec {
 struct WallSpec {
   std::string name;
   WallSlip slip = WallSlip::no_slip;
+  double slip_length = 0;   // [m], of partial slip
+  RigidVelocity surface{};  // of the material along the surface
   std::vector<ShapeSpec> shapes, subtract;
 };
 

@@ -77,18 +77,24 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
   no_y("gravity.acceleration", c.gravity.y);
   no_y("body_force.acceleration", c.body_force.y);
   if (c.domain.periodic[1]) problems.add("domain.periodic", "value \"y\" with two dimensions: allowed: x, z");
+  const auto about_y = [&](const std::string& key, Vec3d spin) {
+    if (spin.x != 0 || spin.z != 0)
+      problems.add(key, "turns out of the x-z plane with two dimensions: allowed: about y alone");
+  };
   for (std::size_t r = 0; r < c.regions.size(); ++r) {
     const std::string key = "region." + std::to_string(r);
     no_y(key + ".velocity", c.regions[r].velocity.y);
-    const Vec3d& spin = c.regions[r].angular_velocity;
+    about_y(key + ".angular_velocity", c.regions[r].angular_velocity);
     for (std::size_t w = 0; w < c.regions[r].waves.size(); ++w) {
       const std::string wave = key + ".waves." + std::to_string(w);
       no_y(wave + ".amplitude", c.regions[r].waves[w].amplitude.y);
       no_y(wave + ".wave_vector", c.regions[r].waves[w].wave_vector.y);
     }
-    if (spin.x != 0 || spin.z != 0)
-      problems.add(key + ".angular_velocity",
-                   "turns out of the x-z plane with two dimensions: allowed: about y alone");
+  }
+  for (std::size_t w = 0; w < c.walls.size(); ++w) {
+    const std::string key = "wall." + std::to_string(w);
+    no_y(key + ".surface_velocity", c.walls[w].surface.velocity.y);
+    about_y(key + ".surface_angular_velocity", c.walls[w].surface.angular_velocity);
   }
 }
 

@@ -8,7 +8,7 @@
 namespace slagflow {
 
 const std::vector<std::string> kernel_names{"lucy"};
-const std::vector<std::string> slip_names{"no_slip", "free_slip"};
+const std::vector<std::string> slip_names{"no_slip", "free_slip", "partial_slip"};
 const std::vector<std::string> pressure_names{"hydrostatic", "zero"};
 const std::vector<std::string> departure_names{"remove", "stop"};
 const std::vector<std::string> solver_names{"conjugate_gradient", "sor", "jacobi"};
@@ -192,12 +192,36 @@ void read_regions(CaseTable& top, Case& c) {
   }
 }
 
+namespace {
+
+void read_slip(CaseTable& t, WallSpec& wall) {
+  t.read_enum("slip", wall.slip, slip_names);
+  if (wall.slip == WallSlip::partial_slip)
+    t.read("slip_length", wall.slip_length, above(0, "m"), Need::required);
+  else
+    t.refuse("slip_length", "only slip = \"partial_slip\" has a slip length");
+}
+
+void read_surface(CaseTable& t, WallSpec& wall) {
+  constexpr const char* keys[] = {"surface_velocity", "surface_angular_velocity", "surface_center"};
+  if (wall.slip == WallSlip::free_slip) {
+    for (const char* key : keys) t.refuse(key, "nothing of slip = \"free_slip\" drags the fluid along");
+    return;
+  }
+  t.read(keys[0], wall.surface.velocity, any_number("m/s"));
+  t.read(keys[1], wall.surface.angular_velocity, any_number("rad/s"));
+  t.read(keys[2], wall.surface.center, any_number("m"));
+}
+
+}  // namespace
+
 void read_walls(CaseTable& top, Case& c) {
   for (CaseTable& t : top.tables("wall", Need::optional)) {
     WallSpec wall;
     if (t.read("name", wall.name, Need::required)) check_name(t, wall.name);
     check_unique(t, c.walls, wall.name);
-    t.read_enum("slip", wall.slip, slip_names);
+    read_slip(t, wall);
+    read_surface(t, wall);
     read_shapes(t, "shapes", Need::required, c.file, wall.shapes);
     read_shapes(t, "subtract", Need::optional, c.file, wall.subtract);
     t.finish();

@@ -108,9 +108,15 @@ void write_fluids(std::ostream& out, const Case& c) {
 }
 
 void write_walls(std::ostream& out, const Case& c) {
-  for (const WallSpec& wall : c.walls)
-    out << "[[wall]]\nname = " << quoted(wall.name) << "\nslip = " << name_of(slip_names, wall.slip)
-        << "\nshapes = " << text_of(wall.shapes) << "\nsubtract = " << text_of(wall.subtract) << "\n\n";
+  for (const WallSpec& wall : c.walls) {
+    out << "[[wall]]\nname = " << quoted(wall.name) << "\nslip = " << name_of(slip_names, wall.slip);
+    if (wall.slip == WallSlip::partial_slip) out << "\nslip_length = " << show(wall.slip_length);
+    if (wall.slip != WallSlip::free_slip)
+      out << "\nsurface_velocity = " << text_of(wall.surface.velocity)
+          << "\nsurface_angular_velocity = " << text_of(wall.surface.angular_velocity)
+          << "\nsurface_center = " << text_of(wall.surface.center);
+    out << "\nshapes = " << text_of(wall.shapes) << "\nsubtract = " << text_of(wall.subtract) << "\n\n";
+  }
 }
 
 void write_numerics(std::ostream& out, const Case& c) {

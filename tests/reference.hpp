@@ -65,6 +65,7 @@ struct Wall {
   Vec back_normal;
   double back_depth = 0;  // below the opposite face of a thin plate; 0: there is none
   bool sticks = true;
+  double slip_length = 0;  // Navier's, of a wall that sticks in part
 };
 
 struct World {
@@ -143,10 +144,12 @@ inline Sum density_rate(const World& w, std::size_t i) {
   return sum;
 }
 
-// Morris' factor of a wall pair, for the face before which the fluid particle stands.
+// Morris' factor of a wall pair, for the face before which the fluid particle stands: the difference between
+// the particle's velocity and the wall particle's on a line that vanishes at the slip length behind the face.
 inline double no_slip_factor(const World& w, const Wall& wall, Vec d) {
   auto factor = [&](Vec normal, double depth) {
-    return std::min(3.0, 1 + depth / std::max(dot(d, normal) - depth, w.spacing / 4));
+    const double height = std::max(dot(d, normal) - depth, w.spacing / 4);
+    return std::min(3.0, (height + depth) / (height + wall.slip_length));
   };
   const bool before_back = wall.back_depth > 0 && dot(d, wall.back_normal) > wall.back_depth;
   return before_back ? factor(wall.back_normal, wall.back_depth) : factor(wall.normal, wall.depth);

@@ -212,6 +212,7 @@ class Scene {
           if (plate) w.back_normal = {0, 0, -1}, w.back_depth = spacing / 2;
           w.pressure = random_.uniform(-30, 200);
           w.sticks = k < 0 || plate || j % 2 == 0;
+          if (i % 2 == 0) w.slip_length = random_.uniform(0, 3 * spacing);
           world.walls.push_back(w);
         }
   }
@@ -260,10 +261,10 @@ class Scene {
     std::vector<Real> pressure;
     for (reference::Wall& w : world.walls) {
       w.x = rounded(w.x), w.v = rounded(w.v), w.depth = rounded(w.depth), w.pressure = rounded(w.pressure);
-      w.back_depth = rounded(w.back_depth);
+      w.back_depth = rounded(w.back_depth), w.slip_length = rounded(w.slip_length);
       place.push_back(to_device(w.x, 0)), normal.push_back(to_device(w.normal, w.depth));
       back.push_back(to_device(w.back_normal, w.back_depth));
-      velocity.push_back(to_device(w.v, w.sticks ? 1 : 0));
+      velocity.push_back(to_device(w.v, w.sticks ? w.slip_length : -1));
       pressure.push_back(static_cast<Real>(w.pressure)), id.push_back(static_cast<Index>(id.size()));
     }
     wall.resize(static_cast<Index>(id.size()));
