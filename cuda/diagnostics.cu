@@ -1,33 +1,10 @@
-#include "backend/launch.hpp"
-#include "backend/primitives.hpp"
 #include "constants.hpp"
+#include "diagnostic_sums.hpp"
 #include "diagnostics.hpp"
 
 namespace slagflow {
 
 namespace {
-
-template <class Term, class T>
-struct Store {
-  Term term;
-  Span<T> result;
-  HOST_DEVICE void operator()(Index i) const { result[i] = static_cast<T>(term(i)); }
-};
-
-template <class Term>
-double total(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
-  scratch.sums.resize(n);
-  launch(context, "diagnostic sum", n, Store<Term, double>{term, scratch.sums.span()});
-  return sum(context, scratch.sums.span());
-}
-
-template <class Term>
-double largest(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
-  constexpr double lowest = -1e30;
-  scratch.maxima.resize(n);
-  launch(context, "diagnostic maximum", n, Store<Term, Real>{term, scratch.maxima.span()});
-  return maximum(context, scratch.maxima.span(), lowest);
-}
 
 // Bodies: one number of particle i each.
 struct KineticEnergy {

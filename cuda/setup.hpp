@@ -110,6 +110,19 @@ struct FrontSetup {
   double position = 0;  // [m]
 };
 
+// A box whose volume of fluid is measured.
+struct BoxSetup {
+  Vec3d lower, upper;  // [m]
+};
+
+// A line along which the fluid is measured.
+struct LineSetup {
+  Vec3d start, end;  // [m]
+  int points = 2;    // >= 2, evenly spaced, both ends included
+
+  Vec3d at(int k) const { return start + (end - start) * (k / (points - 1.0)); }
+};
+
 struct SimulationSetup {
   int dimensions = 3;          // 2: a single layer in the x-z plane, y is ignored
   double spacing = 0;          // [m]
@@ -124,6 +137,9 @@ struct SimulationSetup {
   NumericsSetup numerics;
   LimitSetup limits;
   std::vector<FrontSetup> fronts;
+  std::vector<FrontSetup> planes;  // through which the flow is measured, along their sign
+  std::vector<BoxSetup> boxes;
+  std::vector<LineSetup> lines;
 };
 
 }  // namespace slagflow

@@ -59,11 +59,14 @@ Simulation::State::State(const SimulationSetup& s)
       scratch(context, "scratch"),
       viscous(context, s.numerics),
       diagnostics(context),
-      watch(context, s, static_cast<std::int64_t>(s.particles.position.size())) {
+      watch(context, s, static_cast<std::int64_t>(s.particles.position.size())),
+      planes(s) {
   departed.resize(s.fluids.size());
   upload_fluid();
   upload_walls();
   dt = acoustic_time_step(setup);
+  planes.begin(context, fluid, diagnostics);
+  list_places.copy_from(fluid.place);
   rebuild();
   extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   update_density(context, pairs(), fluid, scratch, 0);  // viscosity and shear rate of the start
@@ -125,6 +128,7 @@ void Simulation::State::upload_walls() {
 
 void Simulation::State::rebuild() {
   Section timer(context, "neighbours");
+  planes.advance(context, fluid, list_places.span(), diagnostics);
   ordering.sort(fluid, departed);
   check_departure();
   build_lists();

@@ -41,6 +41,25 @@ struct FrontState {
   double extreme = 0;       // [m] leading coordinate along the axis
 };
 
+// What has passed a plane, in particles. passed + behind + lost_behind = start_behind, unless the axis is
+// periodic.
+struct PlaneState {
+  std::int64_t passed = 0;        // along the plane's direction less against it, since the start
+  std::int64_t behind = 0;        // in the domain, not beyond the plane
+  std::int64_t lost_behind = 0;   // left the domain while behind the plane
+  std::int64_t start_behind = 0;  // behind at the start
+};
+
+// The fluid at a point of a line; not-a-number where there is too little of it.
+struct ProfilePoint {
+  double distance = 0;    // [m] from the start of the line
+  Vec3d position;         // [m]
+  Vec3d velocity;         // [m/s]
+  double shear_rate = 0;  // [1/s]
+  double viscosity = 0;   // [Pa s]
+  double fill = 0;        // sum of V_j W: 1 inside of the fluid
+};
+
 struct Totals {
   std::int64_t particles = 0;              // fluid particles in the domain
   std::array<std::int64_t, 6> departed{};  // through -x +x -y +y -z +z
@@ -51,11 +70,13 @@ struct Totals {
   double kinetic_energy = 0;               // [J]
   double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
   double dissipated_energy = 0;            // [J], by viscosity since the start
-  double max_density_error = 0;    // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
-  double min_density_ratio = 1;    // smallest rho/rho0
-  Vec3d momentum;                  // [kg m/s]
-  Vec3d angular_momentum;          // [kg m^2/s] about the origin
-  std::vector<FrontState> fronts;  // one per SimulationSetup::fronts
+  double max_density_error = 0;     // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
+  double min_density_ratio = 1;     // smallest rho/rho0
+  Vec3d momentum;                   // [kg m/s]
+  Vec3d angular_momentum;           // [kg m^2/s] about the origin
+  std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
+  std::vector<PlaneState> planes;   // one per SimulationSetup::planes
+  std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
 };
 
 struct SolveReport {
@@ -100,6 +121,8 @@ class Simulation {
 
   void read(FluidSnapshot& out);
   void read(WallSnapshot& out);
+  // Along SimulationSetup::lines[line].
+  std::vector<ProfilePoint> profile(std::size_t line) const;
 
  private:
   struct State;

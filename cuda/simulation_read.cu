@@ -49,7 +49,17 @@ Totals Simulation::totals() {
     const FrontSetup& front = s.setup.fronts[k];
     t.fronts[k].passed += t.departed[static_cast<std::size_t>(2 * front.axis + (front.sign > 0 ? 1 : 0))];
   }
+  t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
+  for (const BoxSetup& box : s.setup.boxes)
+    t.boxes.push_back(count_in_box(s.context, s.fluid, box, s.setup.domain.lower, s.diagnostics));
   return t;
+}
+
+std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
+  State& s = *state_;
+  const ProfileSource source{
+      s.fluid, s.ordering.fluid_sources(s.fluid), s.box, s.reach.support, s.displacement, s.setup.dimensions};
+  return measure_profile(s.context, source, s.setup.lines.at(line), s.setup.domain.lower);
 }
 
 void Simulation::read(FluidSnapshot& out) {

@@ -71,12 +71,12 @@ class Restorer {
 
 template <class Visitor>
 void visit_arrays(Visitor& v, FluidArrays& f, WallArrays& w, Buffer<Quad>& list_places,
-                  DepartureCounts& departed) {
+                  DepartureCounts& departed, std::vector<PlaneCounters::Record>& planes) {
   v.array("position", f.position), v.array("place", f.place), v.array("motion", f.motion);
   v.array("increment", f.increment), v.array("id", f.id), v.array("fluid", f.fluid);
   v.array("state", f.state), v.array("pressure", f.pressure), v.array("shear_rate", f.shear_rate);
   v.array("wall_pressure", w.pressure), v.array("list_places", list_places);
-  v.values("departed", departed);
+  v.values("departed", departed), v.values("planes", planes);
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ SavedState Simulation::save() const {
   State& s = *state_;
   SavedState result;
   Saver saver(result);
-  visit_arrays(saver, s.fluid, s.wall, s.list_places, s.departed);
+  visit_arrays(saver, s.fluid, s.wall, s.list_places, s.departed, s.planes.records);
   std::vector<SavedNumbers> numbers{
       {s.time, s.dt, s.displacement, s.dissipated, s.steps, s.builds, s.solver.steps, s.solver.iterations,
        s.solver.unconverged, s.solver.worst_residual, s.report.residual, s.report.velocity_error,
@@ -104,13 +104,14 @@ void Simulation::restore(const SavedState& saved) {
     throw Error("checkpoint: it was written by a build of another precision");
   const std::size_t kinds = s.departed.size();
   const Offset walls = s.wall.pressure.size();
-  visit_arrays(restorer, s.fluid, s.wall, s.list_places, s.departed);
+  const std::size_t planes = s.planes.records.size();
+  visit_arrays(restorer, s.fluid, s.wall, s.list_places, s.departed, s.planes.records);
   const Offset n = s.fluid.id.size();
   const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
                     s.fluid.increment.size() == n && s.fluid.fluid.size() == n && s.fluid.state.size() == n &&
                     s.fluid.pressure.size() == n && s.fluid.shear_rate.size() == n &&
                     s.list_places.size() == n && s.wall.pressure.size() == walls &&
-                    s.departed.size() == kinds;
+                    s.departed.size() == kinds && s.planes.records.size() == planes;
   if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
   s.fluid.count = static_cast<Index>(n);
   const SavedNumbers& v = numbers[0];

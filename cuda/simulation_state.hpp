@@ -5,6 +5,7 @@
 #include "density.hpp"
 #include "diagnostics.hpp"
 #include "list_age.hpp"
+#include "measures.hpp"
 #include "neighbours.hpp"
 #include "ordering.hpp"
 #include "simulation.hpp"
@@ -32,6 +33,7 @@ struct Simulation::State {
   ViscousStep viscous;
   DiagnosticScratch diagnostics;
   Watch watch;
+  PlaneCounters planes;
 
   double time = 0, dt = 0, displacement = 0, dissipated = 0;
   std::int64_t steps = 0, builds = 0;

@@ -92,17 +92,20 @@ struct OutputSpec {
   double checkpoint_interval = 300;
 };
 
-enum class MeasureType { front, jet };
+enum class MeasureType { front, jet, flow_rate, volume, profile };
 
 struct MeasureSpec {
   std::string name;
   MeasureType type = MeasureType::front;
-  double fraction = 0.002;  // of all fluid particles that must have passed
-  Direction direction;      // front: the way it goes
-  double position = 0;      // [m] front: the line, along that axis
+  double fraction = 0.002;  // front, jet: of all fluid particles that must have passed
+  Direction direction;      // front, flow_rate: the way it goes
+  double position = 0;      // [m] front, flow_rate: the line or plane, along that axis
   Vec3d lip;                // [m] jet: the dam's lip
   Direction outward;        // jet: horizontal, away from the wall
   double bottom = 0;        // [m] jet: coordinate along gravity's axis where the leading edge arrives
+  Vec3d min, max;           // [m] volume: the box
+  Vec3d start, end;         // [m] profile: the line
+  int points = 50;          // profile: on the line, both ends included
 };
 
 struct Case {

@@ -29,11 +29,12 @@ void check_periodic(const Case& c, CaseProblems& problems) {
 
 std::string measure_key(std::size_t index) { return "measure." + std::to_string(index); }
 
-void check_front(const Case& c, std::size_t index, CaseProblems& problems) {
+// The line of a front, which a periodic axis does not have, or the plane of a flow rate.
+void check_plane(const Case& c, std::size_t index, CaseProblems& problems) {
   const MeasureSpec& measure = c.measures[index];
   const std::string key = measure_key(index);
   const int axis = measure.direction.axis;
-  if (c.domain.periodic[static_cast<std::size_t>(axis)])
+  if (measure.type == MeasureType::front && c.domain.periodic[static_cast<std::size_t>(axis)])
     problems.add(key + ".direction", "runs along the periodic axis " + axis_name(axis) +
                                          ": allowed: an axis that is not periodic");
   else if (measure.position < c.domain.lower[axis] || measure.position > c.domain.upper[axis])
@@ -55,16 +56,62 @@ void check_jet(const Case& c, std::size_t index, CaseProblems& problems) {
                                       (sign < 0 ? "< " : "> ") + show(measure.lip[axis]) + " [m]");
 }
 
+std::string text_of(const Vec3d& v) { return "[" + show(v.x) + ", " + show(v.y) + ", " + show(v.z) + "]"; }
+
+bool in_domain(const Case& c, const Vec3d& point) {
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) && (point[k] < c.domain.lower[k] || point[k] > c.domain.upper[k]))
+      return false;
+  return true;
+}
+
+void check_volume(const Case& c, std::size_t index, CaseProblems& problems) {
+  const MeasureSpec& measure = c.measures[index];
+  for (int k = 0; k < 3; ++k) {
+    const std::string along = "value " + show(measure.max[k]) + " along " + axis_name(k);
+    if (!(measure.min[k] < measure.max[k]))
+      return problems.add(measure_key(index) + ".max",
+                          along + " is not above min: allowed: > " + show(measure.min[k]) + " [m]");
+    if (measure.max[k] < c.domain.lower[k] || measure.min[k] > c.domain.upper[k])
+      return problems.add(measure_key(index) + ".max",
+                          along + " makes a box outside of the domain: allowed: a box that meets " +
+                              text_of(c.domain.lower) + " to " + text_of(c.domain.upper) + " [m]");
+  }
+}
+
+void check_profile(const Case& c, std::size_t index, CaseProblems& problems) {
+  const MeasureSpec& measure = c.measures[index];
+  for (const auto& [name, point] : {std::pair{"start", measure.start}, std::pair{"end", measure.end}})
+    if (!in_domain(c, point))
+      problems.add(measure_key(index) + "." + name,
+                   "value " + text_of(point) + " is outside the domain: allowed: " + text_of(c.domain.lower) +
+                       " to " + text_of(c.domain.upper) + " [m]");
+  if (measure.start == measure.end)
+    problems.add(measure_key(index) + ".end", "is the start: allowed: another point");
+}
+
+void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
+  switch (c.measures[index].type) {
+    case MeasureType::front:
+    case MeasureType::flow_rate:
+      return check_plane(c, index, problems);
+    case MeasureType::jet:
+      return check_jet(c, index, problems);
+    case MeasureType::volume:
+      return check_volume(c, index, problems);
+    case MeasureType::profile:
+      return check_profile(c, index, problems);
+  }
+}
+
 void check_measures(const Case& c, CaseProblems& problems) {
   for (std::size_t m = 0; m < c.measures.size(); ++m) {
     const std::string key = measure_key(m);
     if (!problems.fine({key + ".type", key + ".direction", key + ".position", key + ".lip", key + ".outward",
-                        key + ".bottom", "domain.min", "domain.max", "gravity.acceleration"}))
+                        key + ".bottom", key + ".min", key + ".max", key + ".start", key + ".end",
+                        "domain.min", "domain.max", "gravity.acceleration"}))
       continue;
-    if (c.measures[m].type == MeasureType::front)
-      check_front(c, m, problems);
-    else
-      check_jet(c, m, problems);
+    check_measure(c, m, problems);
   }
 }
 

@@ -15,7 +15,7 @@ const std::vector<std::string> solver_names{"conjugate_gradient", "sor", "jacobi
 const std::vector<std::string> operator_names{"radial", "laplacian"};
 const std::vector<std::string> explicit_names{"old_velocity", "predicted"};
 const std::vector<std::string> scheme_names{"slagflow", "paper"};
-const std::vector<std::string> measure_names{"front", "jet"};
+const std::vector<std::string> measure_names{"front", "jet", "flow_rate", "volume", "profile"};
 const std::vector<std::string> direction_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 const std::vector<std::string> axis_names{"x", "y", "z"};
 
@@ -123,7 +123,14 @@ void read_waves(CaseTable& region_table, RegionSpec& region) {
   }
 }
 
-void read_front(CaseTable& t, MeasureSpec& measure) {
+void read_fraction(CaseTable& t, MeasureSpec& measure) {
+  Range fraction = between(0, 1, "");
+  fraction.lower_bound = fraction.upper_bound = Bound::open;
+  t.read("fraction", measure.fraction, fraction);
+}
+
+// The keys of a front and of a plane.
+void read_plane(CaseTable& t, MeasureSpec& measure) {
   int direction = 0;
   if (t.read_choice("direction", direction, direction_names, Need::required))
     measure.direction = direction_of(direction);
@@ -132,10 +139,36 @@ void read_front(CaseTable& t, MeasureSpec& measure) {
 
 void read_jet(CaseTable& t, MeasureSpec& measure) {
   int outward = 0;
+  read_fraction(t, measure);
   t.read("lip", measure.lip, any_number("m"), Need::required);
   if (t.read_choice("outward", outward, direction_names, Need::required))
     measure.outward = direction_of(outward);
   t.read("bottom", measure.bottom, any_number("m"), Need::required);
+}
+
+void read_profile(CaseTable& t, MeasureSpec& measure) {
+  constexpr int most_points = 10000;
+  t.read("start", measure.start, any_number("m"), Need::required);
+  t.read("end", measure.end, any_number("m"), Need::required);
+  t.read_integer("points", measure.points, 2, most_points);
+}
+
+void read_measure(CaseTable& t, MeasureSpec& measure) {
+  switch (measure.type) {
+    case MeasureType::front:
+      read_fraction(t, measure);
+      return read_plane(t, measure);
+    case MeasureType::flow_rate:
+      return read_plane(t, measure);
+    case MeasureType::jet:
+      return read_jet(t, measure);
+    case MeasureType::volume:
+      t.read("min", measure.min, any_number("m"), Need::required);
+      t.read("max", measure.max, any_number("m"), Need::required);
+      return;
+    case MeasureType::profile:
+      return read_profile(t, measure);
+  }
 }
 
 }  // namespace
@@ -292,11 +325,8 @@ void read_measures(CaseTable& top, Case& c) {
     MeasureSpec measure;
     if (t.read("name", measure.name, Need::required)) check_name(t, measure.name);
     check_unique(t, c.measures, measure.name);
-    Range fraction = between(0, 1, "");
-    fraction.lower_bound = fraction.upper_bound = Bound::open;
-    t.read("fraction", measure.fraction, fraction);
     if (t.read_enum("type", measure.type, measure_names, Need::required)) {
-      measure.type == MeasureType::front ? read_front(t, measure) : read_jet(t, measure);
+      read_measure(t, measure);
       t.finish();
     }
     c.measures.push_back(measure);

@@ -135,11 +135,16 @@ void write_numerics(std::ostream& out, const Case& c) {
 }
 
 void write_measure(std::ostream& out, const MeasureSpec& m) {
-  out << "\n[[measure]]\nname = " << quoted(m.name) << "\ntype = " << name_of(measure_names, m.type)
-      << "\nfraction = " << show(m.fraction);
-  if (m.type == MeasureType::front)
+  out << "\n[[measure]]\nname = " << quoted(m.name) << "\ntype = " << name_of(measure_names, m.type);
+  if (m.type == MeasureType::front || m.type == MeasureType::jet) out << "\nfraction = " << show(m.fraction);
+  if (m.type == MeasureType::front || m.type == MeasureType::flow_rate)
     out << "\ndirection = " << name_of(direction_names, index_of(m.direction))
         << "\nposition = " << show(m.position) << "\n";
+  else if (m.type == MeasureType::volume)
+    out << "\nmin = " << text_of(m.min) << "\nmax = " << text_of(m.max) << "\n";
+  else if (m.type == MeasureType::profile)
+    out << "\nstart = " << text_of(m.start) << "\nend = " << text_of(m.end) << "\npoints = " << m.points
+        << "\n";
   else
     out << "\nlip = " << text_of(m.lip) << "\noutward = " << name_of(direction_names, index_of(m.outward))
         << "\nbottom = " << show(m.bottom) << "\n";

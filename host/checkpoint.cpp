@@ -52,6 +52,7 @@ SavedState arrays_of(const RunRecord& run) {
   for (const auto& [name, member] : reals) arrays.push_back(array_of(name, &(run.*member), 1));
   for (const auto& [name, member] : wholes) arrays.push_back(array_of(name, &(run.*member), 1));
   arrays.push_back(array_of("measures", run.measures.data(), run.measures.size()));
+  arrays.push_back(array_of("profiles", run.profiles.data(), run.profiles.size()));
   return arrays;
 }
 
@@ -71,9 +72,13 @@ RunRecord record_of(const SavedState& arrays, const std::string& path) {
   };
   for (const auto& [name, member] : reals) take(name, &(run.*member));
   for (const auto& [name, member] : wholes) take(name, &(run.*member));
-  const SavedArray& measures = find(arrays, "measures", path);
-  run.measures.resize(measures.bytes.size() / sizeof(double));
-  if (!run.measures.empty()) std::memcpy(run.measures.data(), measures.bytes.data(), measures.bytes.size());
+  const auto take_all = [&](const char* name, auto& values) {
+    const SavedArray& array = find(arrays, name, path);
+    values.resize(array.bytes.size() / sizeof(values[0]));
+    if (!values.empty()) std::memcpy(values.data(), array.bytes.data(), array.bytes.size());
+  };
+  take_all("measures", run.measures);
+  take_all("profiles", run.profiles);
   return run;
 }
 

@@ -33,6 +33,7 @@ struct RunRecord {
   std::int64_t resumes = 0;                    // how often the run has been resumed
   std::int64_t geometry = 0;                   // checksum of the particles that the case starts from
   std::vector<double> measures;                // Measures::state()
+  std::vector<std::int64_t> profiles;          // ProfileFiles::finish()
 };
 
 struct Checkpoint {

@@ -1,25 +1,13 @@
-// What is measured of the fluid during a run.
+// What is measured of the fluid during a run: one object for each [[measure]] of the case.
 //
-// Travelling time. A front has arrived at its line when the fraction f of all fluid particles of the start is
-// beyond the line (those that left through the face beyond it included). Between two lines of the history the
-// passed fraction is taken as linear in time; the travelling time is when it equals f. If it is reached at
-// the first line already, the travelling time is the time of that line.
-//
-// Jet. The line is the level `bottom`; D is the drop from the lip to it along the front's axis. At the first
-// line of the history at or after the arrival, o being the coordinate along `outward` from the lip:
-//   tan_theta    = mean o of the particles in the domain beyond `bottom` / D
-//   inner_offset = 2nd percentile of o of the particles within one spacing of the level 2 D / 3 below the lip
-//                  (the side of the flow that faces the wall; linear between neighbouring values)
-//   class        = "wall-flow" if inner_offset <= 2 spacings, else "free-jet"; without particles at that
-//   level
-//                  tan_theta D takes the place of inner_offset.
+// A new kind of measure is a class here or in a file of its own, an entry of MeasureType and of
+// make_measure() in measures.cpp, and its keys in the case file.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,57 +17,49 @@
 
 namespace slagflow {
 
-// Finds when the passed fraction reaches a limit.
-class ArrivalClock {
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+// What a measure sees at a line of the history.
+struct MeasureMoment {
+  double time;  // [s]
+  const Totals& totals;
+  // A snapshot is read only where a measure asks for one.
+  const std::function<const FluidSnapshot&()>& read;
+};
+
+class Measure {
  public:
-  explicit ArrivalClock(double fraction) : fraction_(fraction) {}
+  explicit Measure(std::string name) : name_(std::move(name)) {}
+  virtual ~Measure() = default;
 
-  // Takes the fraction at a time [s]; times come in ascending order.
-  // Returns true at the first time at or after the arrival, once.
-  bool update(double time, double passed);
-  std::optional<double> arrival() const { return arrival_; }  // [s]
+  const std::string& name() const { return name_; }
+  // Endings of the history's columns, units included, and their values now; unknown values are not-a-number.
+  virtual std::vector<std::string> columns() const = 0;
+  virtual std::vector<double> update(const MeasureMoment&) = 0;
 
-  // What it has seen so far, and back: a clock of the same fraction goes on as this one would.
-  using State = std::array<double, 4>;
-  State state() const;
-  void restore(const State& state);
+  // What it has seen so far, as the same number of values at all times, and back: a measure of the same case
+  // goes on as this one would.
+  virtual std::vector<double> state() const = 0;
+  virtual void restore(const double* state) = 0;
+
+  virtual Json summary() const = 0;      // {type, ...}
+  virtual std::string line() const = 0;  // for people
+  virtual const char* type() const = 0;  // as in a case file
 
  private:
-  double fraction_;
-  std::optional<double> arrival_;
-  double last_time_ = 0, last_passed_ = 0;
-  bool begun_ = false;
+  std::string name_;
 };
-
-struct JetGeometry {
-  Vec3d lip;           // [m]
-  Direction outward;   // away from the wall
-  FrontSetup front;    // the level that the jet arrives at, beyond the lip
-  double spacing = 0;  // [m]
-
-  double drop() const;                      // [m] from the lip to the level
-  double outward_of(Vec3d position) const;  // [m] from the lip
-  double fallen(Vec3d position) const;      // [m] from the lip towards the level
-};
-
-struct JetShape {
-  double tan_theta = std::numeric_limits<double>::quiet_NaN();     // of no particles: not-a-number
-  double inner_offset = std::numeric_limits<double>::quiet_NaN();  // [m]
-  std::string flow_class;                                          // empty if neither is known
-};
-
-JetShape measure_jet(const JetGeometry& jet, const std::vector<Vec3d>& positions);
 
 // All measures of a case.
 class Measures {
  public:
-  // `fronts`: those of the setup, one for each measure of the case; `particles`: fluid ones at the start.
-  Measures(const Case& c, const std::vector<FrontSetup>& fronts, std::int64_t particles);
+  // `setup`: as it was built from the case, with the particles of the start.
+  Measures(const Case&, const SimulationSetup& setup);
 
-  // NAME_front_m and NAME_passed (fraction) for each measure.
+  // NAME_ENDING for each column of each measure.
   std::vector<std::string> columns() const;
 
-  // The values of the columns now. Reads a snapshot only where a measure needs one.
+  // The values of the columns now.
   using ReadSnapshot = std::function<const FluidSnapshot&()>;
   std::vector<double> update(double time, const Totals& totals, const ReadSnapshot& read);
 
@@ -94,19 +74,7 @@ class Measures {
   std::vector<std::string> lines() const;
 
  private:
-  struct Measure {
-    MeasureSpec spec;
-    FrontSetup front;
-    ArrivalClock clock;
-    JetShape shape;
-    double leading = std::numeric_limits<double>::quiet_NaN();
-    double passed = 0;
-  };
-  JetGeometry jet_of(const Measure& m) const;
-  Json summary_of(const Measure& m) const;
-
-  double particles_, spacing_;
-  std::vector<Measure> measures_;
+  std::vector<std::unique_ptr<Measure>> measures_;
 };
 
 }  // namespace slagflow

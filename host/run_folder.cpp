@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include "backend/error.hpp"
 #include "host/checkpoint_store.hpp"
@@ -67,6 +68,12 @@ void clear_folder(const std::string& folder) {
   for (const char* name : run_files) {
     fs::remove(fs::path(folder) / name, failed);
     if (failed) throw Error("cannot remove " + folder + "/" + name + ": " + failed.message());
+  }
+  const std::regex profile("profile_.*\\.csv");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (!std::regex_match(entry.path().filename().string(), profile)) continue;
+    fs::remove(entry.path(), failed);
+    if (failed) throw Error("cannot remove " + entry.path().string() + ": " + failed.message());
   }
 }
 

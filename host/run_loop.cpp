@@ -49,8 +49,7 @@ Run::Run(BuiltCase built, std::string folder, Log& log)
       geometry_(checksum_of(built_.setup)),
       snapshot_due_(built_.resolved.output.interval),
       history_due_(built_.resolved.output.history_interval),
-      measures_(built_.resolved, built_.setup.fronts,
-                static_cast<std::int64_t>(built_.setup.particles.position.size())) {
+      measures_(built_.resolved, built_.setup) {
   counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
   counts_.walls = static_cast<std::int64_t>(built_.setup.walls.position.size());
   particles_now_ = counts_.particles_start;
@@ -120,11 +119,13 @@ void Run::open_outputs() {
   if (!resumed_) {
     history_.emplace(history, columns);
     snapshots_.emplace(folder_, sizes, provenance_.attributes());
+    profiles_.emplace(built_.resolved, folder_);
     return;
   }
   const RunRecord& run = resumed_->run;
   history_.emplace(history, columns, HistoryEnd{run.history_lines, run.history_bytes});
   snapshots_.emplace(folder_, sizes, PresentSnapshots(run.snapshots));
+  profiles_.emplace(built_.resolved, folder_, run.profiles);
 }
 
 RunStatus Run::loop() {
@@ -168,6 +169,7 @@ void Run::take_snapshot() {
     simulation_->read(snapshot.particles);
     if (snapshots_->writes_walls()) simulation_->read(snapshot.walls);
   });
+  profiles_->write(*simulation_);
   snapshot_step_ = simulation_->steps();
 }
 
@@ -198,6 +200,7 @@ RunRecord Run::run_record() {
   run.resumes = resumes_;
   run.geometry = geometry_;
   run.measures = measures_.state();
+  run.profiles = profiles_->finish();
   return run;
 }
 

@@ -9,6 +9,7 @@
 #include "host/checkpoint_store.hpp"
 #include "host/history.hpp"
 #include "host/measures.hpp"
+#include "host/profiles.hpp"
 #include "host/progress.hpp"
 #include "host/provenance.hpp"
 #include "host/run.hpp"
@@ -81,6 +82,7 @@ class Run {
   std::optional<Simulation> simulation_;
   std::optional<HistoryFile> history_;
   std::optional<SnapshotWriter> snapshots_;
+  std::optional<ProfileFiles> profiles_;
 };
 
 }  // namespace slagflow

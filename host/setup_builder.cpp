@@ -38,10 +38,21 @@ FluidSetup fluid_setup(const FluidSpec& spec) {
   return fluid;
 }
 
-FrontSetup front_setup(const Case& c, const MeasureSpec& measure) {
-  if (measure.type == MeasureType::front)
-    return {measure.direction.axis, measure.direction.sign, measure.position};
-  return {down(c).axis, down(c).sign, measure.bottom};
+// What the simulation measures, by kind, in the order of the case.
+void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& setup) {
+  const FrontSetup plane{measure.direction.axis, measure.direction.sign, measure.position};
+  switch (measure.type) {
+    case MeasureType::front:
+      return setup.fronts.push_back(plane);
+    case MeasureType::jet:
+      return setup.fronts.push_back({down(c).axis, down(c).sign, measure.bottom});
+    case MeasureType::flow_rate:
+      return setup.planes.push_back(plane);
+    case MeasureType::volume:
+      return setup.boxes.push_back({measure.min, measure.max});
+    case MeasureType::profile:
+      return setup.lines.push_back({measure.start, measure.end, measure.points});
+  }
 }
 
 }  // namespace
@@ -68,7 +79,7 @@ BuiltCase build_setup(const Case& c) {
   setup.domain = c.domain;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
   setup.numerics = built.resolved.numerics;
-  for (const MeasureSpec& measure : c.measures) setup.fronts.push_back(front_setup(c, measure));
+  for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
   return built;
 }
 

@@ -1,4 +1,5 @@
 // Wrong cases: each must be refused with a message that says where, what and what is allowed.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -248,6 +249,33 @@ TEST(CaseErrors, EachMistakeIsNamedWithItsPlace) {
           << "line " << wrong.line << ": " << wrong.replacement << "\nwanted: " << fragment
           << "\ngot: " << message;
   }
+}
+
+// The good case with another measure in place of its front.
+std::string with_measure(const std::string& keys) {
+  std::string text = text_with(27, keys);
+  for (const std::string& line : {good_lines[27], good_lines[28]}) text.erase(text.rfind(line), line.size());
+  return message_of(text);
+}
+
+TEST(CaseErrors, MeasuresMustFitTheDomain) {
+  using testing::HasSubstr;
+  EXPECT_EQ(with_measure("type = 'flow_rate'\ndirection = '+x'\nposition = 0.01"), "accepted");
+  EXPECT_THAT(with_measure("type = 'flow_rate'\ndirection = '+x'\nposition = 0.01\nfraction = 0.1"),
+              HasSubstr("key 'measure.0.fraction': unknown"));
+  EXPECT_THAT(with_measure("type = 'flow_rate'\ndirection = '+x'\nposition = 1"),
+              HasSubstr("key 'measure.0.position': value 1.0 is outside the domain"));
+  EXPECT_EQ(with_measure("type = 'volume'\nmin = [0, 0, 0]\nmax = [0.01, 9, 9]"), "accepted");
+  EXPECT_THAT(with_measure("type = 'volume'\nmin = [0, 0, 0]\nmax = [0.01, 0, 0.01]"),
+              HasSubstr("key 'measure.0.max': value 0.0 along y is not above min"));
+  EXPECT_THAT(with_measure("type = 'volume'\nmin = [1, 0, 0]\nmax = [2, 1, 1]"),
+              HasSubstr("outside of the domain"));
+  EXPECT_EQ(with_measure("type = 'profile'\nstart = [0, 0, 0]\nend = [0, 0, 0.01]"), "accepted");
+  EXPECT_THAT(with_measure("type = 'profile'\nstart = [0, 0, 0]\nend = [0, 0, 0]"),
+              HasSubstr("key 'measure.0.end': is the start"));
+  EXPECT_THAT(with_measure("type = 'profile'\nstart = [0, 0, 1]\nend = [0, 0, 0]\npoints = 1"),
+              AllOf(HasSubstr("key 'measure.0.start': value [0.0, 0.0, 1.0] is outside the domain"),
+                    HasSubstr("key 'measure.0.points': value 1")));
 }
 
 TEST(CaseErrors, JetMustPointDownAndOut) {

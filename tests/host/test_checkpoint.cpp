@@ -13,8 +13,9 @@
 #include "host/checkpoint_store.hpp"
 #include "host/history.hpp"
 #include "host/info.hpp"
-#include "host/measures.hpp"
+#include "host/measure_front.hpp"
 #include "host/run_interrupt.hpp"
+#include "host/setup_builder.hpp"
 #include "host/snapshot_writer.hpp"
 #include "temp_folder.hpp"
 #include "tiny_case.hpp"
@@ -251,7 +252,8 @@ TEST(ArrivalClock, GoesOnFromItsState) {
 }
 
 TEST(Measures, RefuseTheStateOfOtherMeasures) {
-  Measures measures(parse_case(testing_tools::tiny_case(), "t.toml"), {{0, 1, 0.0085}}, 10);
+  const Case c = parse_case(testing_tools::tiny_case(), "t.toml");
+  Measures measures(c, build_setup(c).setup);
   EXPECT_THROW(measures.restore({1, 2, 3}), Error);
 }
 

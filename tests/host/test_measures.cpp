@@ -3,7 +3,9 @@
 
 #include <cmath>
 
-#include "host/measures.hpp"
+#include "host/measure_front.hpp"
+#include "host/profiles.hpp"
+#include "temp_folder.hpp"
 
 namespace slagflow {
 namespace {
@@ -105,6 +107,14 @@ Case two_measures() {
   return c;
 }
 
+SimulationSetup two_fronts() {
+  SimulationSetup setup;
+  setup.spacing = 0.001;
+  setup.fronts = {{2, -1, -0.06}, {2, -1, -0.13}};
+  setup.particles.position.resize(10);
+  return setup;
+}
+
 Totals totals(std::int64_t first, std::int64_t second) {
   Totals t;
   t.particles = 10;
@@ -117,7 +127,7 @@ Totals totals(std::int64_t first, std::int64_t second) {
 }
 
 TEST(Measures, ReportColumnsAndSummaryByName) {
-  Measures measures(two_measures(), {{2, -1, -0.06}, {2, -1, -0.13}}, 10);
+  Measures measures(two_measures(), two_fronts());
   EXPECT_THAT(measures.columns(),
               testing::ElementsAre("half_way_front_m", "half_way_passed", "jet_front_m", "jet_passed"));
   FluidSnapshot snapshot;
@@ -140,11 +150,109 @@ TEST(Measures, ReportColumnsAndSummaryByName) {
 }
 
 TEST(Measures, HaveNoTravellingTimeBeforeTheArrival) {
-  Measures measures(two_measures(), {{2, -1, -0.06}, {2, -1, -0.13}}, 10);
+  Measures measures(two_measures(), two_fronts());
   const FluidSnapshot none;
   measures.update(0, totals(0, 0), [&]() -> const FluidSnapshot& { return none; });
   EXPECT_TRUE(measures.summary().at("half_way").at("travelling_time").is_null());
   EXPECT_THAT(measures.lines()[0], testing::HasSubstr("not arrived"));
+}
+
+Case one_measure(MeasureType type, const std::string& name) {
+  Case c;
+  c.spacing = 0.01;
+  MeasureSpec measure;
+  measure.name = name;
+  measure.type = type;
+  measure.points = 5;
+  c.measures = {measure};
+  return c;
+}
+
+SimulationSetup one_of_each(int dimensions) {
+  SimulationSetup setup;
+  setup.spacing = 0.01;
+  setup.dimensions = dimensions;
+  setup.planes = {{0, 1, 0.05}};
+  setup.boxes = {{{0, 0, 0}, {1, 1, 1}}};
+  setup.lines = {{{0, 0, 0}, {0, 0, 1}, 5}};
+  return setup;
+}
+
+const Measures::ReadSnapshot no_snapshot = []() -> const FluidSnapshot& {
+  static const FluidSnapshot none;
+  return none;
+};
+
+Totals flow_totals(std::int64_t passed, std::int64_t behind, std::int64_t lost) {
+  Totals t;
+  t.planes = {{passed, behind, lost, 100}};
+  t.boxes = {passed};
+  return t;
+}
+
+TEST(FlowMeasure, GivesPassedVolumeAndTheRateBetweenLines) {
+  Measures measures(one_measure(MeasureType::flow_rate, "lip"), one_of_each(3));
+  EXPECT_THAT(measures.columns(), testing::ElementsAre("lip_passed_m3", "lip_behind_m3", "lip_flow_m3_s"));
+  const std::vector<double> first = measures.update(0, flow_totals(0, 100, 0), no_snapshot);
+  EXPECT_DOUBLE_EQ(first[1], 100e-6);
+  EXPECT_TRUE(std::isnan(first[2]));  // no earlier line
+  measures.update(0.1, flow_totals(10, 90, 0), no_snapshot);
+  const std::vector<double> third = measures.update(0.3, flow_totals(40, 55, 5), no_snapshot);
+  EXPECT_DOUBLE_EQ(third[0], 40e-6);
+  EXPECT_DOUBLE_EQ(third[1], 55e-6);
+  EXPECT_NEAR(third[2], 30e-6 / 0.2, 1e-12);
+  const Json summary = measures.summary().at("lip");
+  EXPECT_EQ(summary.at("type").text(), "\"flow_rate\"");
+  EXPECT_EQ(summary.at("direction").text(), "\"+x\"");
+  EXPECT_DOUBLE_EQ(summary.at("lost_behind_volume").number(), 5e-6);
+  EXPECT_EQ(summary.at("balance_error").number(), 0);
+  measures.update(0.4, flow_totals(40, 54, 5), no_snapshot);  // one was lost from the count
+  EXPECT_DOUBLE_EQ(measures.summary().at("lip").at("balance_error").number(), -1e-6);
+}
+
+TEST(FlowMeasure, HasNothingBehindOnAPeriodicAxis) {
+  SimulationSetup setup = one_of_each(3);
+  setup.domain.periodic[0] = true;
+  Measures measures(one_measure(MeasureType::flow_rate, "lip"), setup);
+  EXPECT_TRUE(std::isnan(measures.update(0, flow_totals(0, 100, 0), no_snapshot)[1]));
+  EXPECT_TRUE(measures.summary().at("lip").at("behind_volume").is_null());
+}
+
+TEST(VolumeMeasure, GivesTheVolumeInTheBox) {
+  Measures solid(one_measure(MeasureType::volume, "pool"), one_of_each(3));
+  EXPECT_THAT(solid.columns(), testing::ElementsAre("pool_m3"));
+  EXPECT_DOUBLE_EQ(solid.update(0, flow_totals(30, 0, 0), no_snapshot)[0], 30e-6);
+  solid.update(1, flow_totals(20, 0, 0), no_snapshot);
+  EXPECT_DOUBLE_EQ(solid.summary().at("pool").at("volume").number(), 20e-6);
+  EXPECT_DOUBLE_EQ(solid.summary().at("pool").at("largest_volume").number(), 30e-6);
+  Measures plane(one_measure(MeasureType::volume, "pool"), one_of_each(2));
+  EXPECT_THAT(plane.columns(), testing::ElementsAre("pool_m2"));
+  EXPECT_DOUBLE_EQ(plane.update(0, flow_totals(30, 0, 0), no_snapshot)[0], 30e-4);
+}
+
+TEST(Measures, GoOnFromTheirState) {
+  Case c = two_measures();
+  for (const MeasureType type : {MeasureType::flow_rate, MeasureType::volume, MeasureType::profile}) {
+    c.measures.push_back({});
+    c.measures.back().name = "m" + std::to_string(c.measures.size());
+    c.measures.back().type = type;
+  }
+  SimulationSetup setup = one_of_each(3);
+  setup.fronts = two_fronts().fronts;
+  setup.particles.position.resize(10);
+  Measures one(c, setup), other(c, setup);
+  const auto both = [](std::int64_t n) {
+    Totals t = flow_totals(n, 100 - n, 0);
+    t.fronts = totals(n, n / 2).fronts;
+    t.particles = 10;
+    return t;
+  };
+  one.update(0, both(0), no_snapshot);
+  one.update(0.1, both(3), no_snapshot);
+  other.restore(one.state());
+  EXPECT_EQ(one.update(0.2, both(7), no_snapshot), other.update(0.2, both(7), no_snapshot));
+  EXPECT_EQ(one.summary().text(), other.summary().text());
+  EXPECT_EQ(one.lines(), other.lines());
 }
 
 }  // namespace

@@ -63,6 +63,7 @@ std::string measures_of(const std::string& folder) {
 
 void expect_same_results(const std::string& folder, const std::string& unbroken) {
   EXPECT_EQ(read_text_file(folder + "/history.csv"), read_text_file(unbroken + "/history.csv"));
+  EXPECT_EQ(read_text_file(folder + "/profile_height.csv"), read_text_file(unbroken + "/profile_height.csv"));
   EXPECT_EQ(measures_of(folder), measures_of(unbroken));
   EXPECT_THAT(read_text_file(folder + "/summary.json"), HasSubstr("\"status\": \"done\""));
   for (const char* name : {"/particles.vtkhdf", "/walls.vtkhdf"}) {

@@ -61,7 +61,10 @@ TEST(Run, LeavesAllFilesOfAFinishedRun) {
   const auto history = lines_of(folder / "run/history.csv");
   ASSERT_EQ(history.size(), 1u + 9u);
   EXPECT_THAT(history[0], testing::StartsWith("time_s,step,dt_s,particles_in,particles_out,max_speed_m_s,"));
-  EXPECT_THAT(history[0], testing::EndsWith("spread_front_m,spread_passed"));
+  EXPECT_THAT(
+      history[0],
+      testing::EndsWith(
+          "spread_front_m,spread_passed,outflow_passed_m3,outflow_behind_m3,outflow_flow_m3_s,corner_m3"));
 }
 
 // Read back by read_vtkhdf.py with VTK's reader, from the folder that the variable names.

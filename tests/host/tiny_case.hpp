@@ -39,6 +39,22 @@ type = "front"
 direction = "+x"
 position = 0.0085
 fraction = 0.1
+[[measure]]
+name = "outflow"
+type = "flow_rate"
+direction = "+x"
+position = 0.0085
+[[measure]]
+name = "corner"
+type = "volume"
+min = [0, 0, 0]
+max = [0.005, 0.005, 0.005]
+[[measure]]
+name = "height"
+type = "profile"
+start = [0.005, 0.005, 0]
+end = [0.005, 0.005, 0.01]
+points = 6
 )";
 }
 
