@@ -90,6 +90,7 @@ struct OutputSpec {
   bool walls = true;            // write the wall particles
   // [s] of wall time between checkpoints; 0: only at the end and on signals
   double checkpoint_interval = 300;
+  std::string stop_after;  // a front or jet that ends the run when it arrives; empty: none
 };
 
 enum class MeasureType { front, jet, flow_rate, volume, profile };

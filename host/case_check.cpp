@@ -115,6 +115,19 @@ void check_measures(const Case& c, CaseProblems& problems) {
   }
 }
 
+void check_stop(const Case& c, CaseProblems& problems) {
+  if (c.output.stop_after.empty()) return;
+  std::string arriving;
+  for (const MeasureSpec& m : c.measures) {
+    if (m.type != MeasureType::front && m.type != MeasureType::jet) continue;
+    if (m.name == c.output.stop_after) return;
+    arriving += (arriving.empty() ? "" : ", ") + m.name;
+  }
+  problems.add("output.stop_after", "value \"" + c.output.stop_after +
+                                        "\" is no measure that arrives: allowed: a front or jet: " +
+                                        (arriving.empty() ? "the case has none" : arriving));
+}
+
 void check_two_dimensions(const Case& c, CaseProblems& problems) {
   if (c.dimensions != 2) return;
   const auto no_y = [&](const std::string& key, double y) {
@@ -151,6 +164,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_two_dimensions(c, problems);
   check_periodic(c, problems);
   check_measures(c, problems);
+  check_stop(c, problems);
 }
 
 }  // namespace slagflow

@@ -317,6 +317,7 @@ void read_output(CaseTable& top, Case& c) {
          timed ? at_least(c.output.end_time / most_lines, "s") : above(0, "s"));
   t.read("walls", c.output.walls);
   t.read("checkpoint_interval", c.output.checkpoint_interval, at_least(0, "s"));
+  t.read("stop_after", c.output.stop_after);
   t.finish();
 }
 

@@ -160,7 +160,8 @@ std::string to_toml(const Case& c) {
   write_numerics(out, c);
   out << "[output]\nend_time = " << show(c.output.end_time) << "\ninterval = " << show(c.output.interval)
       << "\nhistory_interval = " << show(c.output.history_interval) << "\nwalls = " << text_of(c.output.walls)
-      << "\ncheckpoint_interval = " << show(c.output.checkpoint_interval) << "\n";
+      << "\ncheckpoint_interval = " << show(c.output.checkpoint_interval)
+      << "\nstop_after = " << quoted(c.output.stop_after) << "\n";
   for (const MeasureSpec& measure : c.measures) write_measure(out, measure);
   return out.str();
 }

@@ -72,6 +72,7 @@ class FrontMeasure : public Measure {
   std::vector<double> update(const MeasureMoment&) override;
   std::vector<double> state() const override;
   void restore(const double* state) override;
+  bool arrived() const override { return clock_.arrival().has_value(); }
   Json summary() const override;
   std::string line() const override;
   const char* type() const override { return "front"; }

@@ -81,6 +81,11 @@ void Measures::restore(const std::vector<double>& state) {
   }
 }
 
+bool Measures::arrived(const std::string& name) const {
+  return std::any_of(measures_.begin(), measures_.end(),
+                     [&](const auto& m) { return m->name() == name && m->arrived(); });
+}
+
 Json Measures::summary() const {
   Json all = Json::object();
   for (const auto& m : measures_) all.set(m->name(), m->summary());

@@ -42,6 +42,9 @@ class Measure {
   virtual std::vector<double> state() const = 0;
   virtual void restore(const double* state) = 0;
 
+  // Whether what it waits for has come.
+  virtual bool arrived() const { return false; }
+
   virtual Json summary() const = 0;      // {type, ...}
   virtual std::string line() const = 0;  // for people
   virtual const char* type() const = 0;  // as in a case file
@@ -67,6 +70,9 @@ class Measures {
   // Throws Error when the state is one of other measures.
   std::vector<double> state() const;
   void restore(const std::vector<double>& state);
+
+  // Whether the measure of this name has arrived.
+  bool arrived(const std::string& name) const;
 
   // Name of each measure -> {type, ...}.
   Json summary() const;

@@ -136,6 +136,7 @@ RunStatus Run::loop() {
     if (history_due_.due(time)) record();
     if (snapshot_due_.due(time)) take_snapshot();
     if (time >= built_.resolved.output.end_time) return RunStatus::done;
+    if (measures_.arrived(built_.resolved.output.stop_after)) return RunStatus::done;
     if (signals_.requested()) {
       log_.warning("interrupted at " + std::to_string(time) + " s");
       return RunStatus::interrupted;

@@ -230,6 +230,10 @@ const std::vector<Wrong> wrong_cases{
      "position = 0.03",
      {"case.toml:29: key 'measure.0.position': value 0.03 is outside the domain: allowed: -0.01 to 0.02 "
       "[m]"}},
+    {24,
+     "end_time = 1\nstop_after = 'back'",
+     {"case.toml:25: key 'output.stop_after': value \"back\" is no measure that arrives: allowed: a front or "
+      "jet: front"}},
     {27,
      "type = 'jet'",
      {"key 'measure.0.lip': missing", "key 'measure.0.outward': missing", "key 'measure.0.bottom': missing",

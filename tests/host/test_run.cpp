@@ -189,5 +189,21 @@ TEST(InterruptGuard, LeavesTheSecondSignalToTheSystem) {
   EXPECT_EQ(now.sa_handler, before.sa_handler);
 }
 
+TEST(Run, EndsWhenTheMeasureItWaitsForHasArrived) {
+  const TempFolder folder;
+  std::string text = leaving_case("remove");
+  const Case c = parse_case(text, "t.toml", {"output.stop_after=spread"});
+  EXPECT_EQ(parse_case(to_toml(c), "u.toml").output.stop_after, "spread");
+  RunOptions options;
+  options.folder = folder / "run";
+  options.verbosity = Verbosity::quiet;
+  EXPECT_EQ(run_case(c, options).exit_code(), 0);
+  const std::string summary = read_text_file(folder / "run/summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"status\": \"done\""));
+  // The first particles have 0.5 mm to go at 1 m/s; the case would end at 20 ms.
+  const std::string key = "\"simulated_time\": ";
+  EXPECT_LT(std::stod(summary.substr(summary.find(key) + key.size())), 0.005);
+}
+
 }  // namespace
 }  // namespace slagflow
