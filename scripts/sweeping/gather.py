@@ -1,0 +1,46 @@
+"""Gathers the points of a sweep in one table. A line a point: its axes, how it ended, the fluids, the cost, and every
+number and word of its measures."""
+
+import csv
+import json
+import tomllib
+
+SUMMARY = ("spacing", "steps", "simulated_time", "wall_time", "particle_steps_per_second", "max_density_error", "mass_start",
+           "mass_in", "mass_left", "version", "commit", "backend", "precision")
+
+
+def scalars(value, prefix):
+    """Dotted key -> value of the numbers and words in nested tables."""
+    if isinstance(value, dict):
+        for key, entry in value.items():
+            yield from scalars(entry, f"{prefix}.{key}" if prefix else key)
+    elif not isinstance(value, list):
+        yield prefix, value
+
+
+def read_json(path):
+    return json.loads(path.read_text()) if path.is_file() else {}
+
+
+def line_of(folder):
+    result = read_json(folder / "result.json")
+    line = {"point": folder.name, **result.get("axes", {}), "status": result.get("status", "missing"),
+            "reason": result.get("reason", "")}
+    summary = read_json(folder / "run/summary.json")
+    case = folder / "run/case.toml"
+    if case.is_file():
+        line |= dict(scalars(tomllib.loads(case.read_text()).get("fluid", {}), "fluid"))
+    line |= {key: summary[key] for key in SUMMARY if key in summary}
+    return line | dict(scalars(summary.get("measures", {}), ""))
+
+
+def gather(plan, folder):
+    """Writes results.csv in the sweep's folder. Returns its lines."""
+    lines = [line_of(folder / "points" / name) for name in plan["points"]]
+    columns = list(dict.fromkeys(column for line in lines for column in line))
+    with open(folder / "results.csv", "w", newline="") as file:
+        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({key: "" if value is None else value for key, value in line.items()} for line in lines)
+    return lines
+

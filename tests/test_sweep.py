@@ -1,0 +1,172 @@
+"""Tests of scripts/sweep and of the charts of scripts/figures. With a test's name as argument only that one is run."""
+
+import csv
+import json
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(PROJECT / "scripts"))
+from sweeping import gather, plan  # noqa: E402
+
+SWEEP = """
+[sweep]
+case = "base.toml"
+[set]
+output.end_time = 0.5
+[[axis]]
+name = "oil"
+points = [{name = "A", set = {fluid.oil.viscosity = 0.05}}, {name = "B", set = {"fluid.oil.viscosity" = 0.3}}]
+[[axis]]
+key = "fluid.oil.fraction"
+values = [0.0, 0.5]
+[[when]]
+match = {oil = "B", fraction = 0.5}
+set = {fluid.oil.stress = [[0.4, 0], [0.5, 3]]}
+[[exclude]]
+oil = "A"
+fraction = 0.5
+"""
+
+# A program that stands for slagflow: fails for oil B, else leaves what a run leaves.
+PROGRAM = """#!/usr/bin/python3
+import json, pathlib, sys
+folder = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
+with open(folder.parent.parent.parent / "calls", "a") as calls:
+    calls.write(" ".join(sys.argv[1:]) + "\\n")
+if "--set=fluid.oil.viscosity=0.3" in sys.argv:
+    sys.exit("error: too thick")
+folder.mkdir(parents=True, exist_ok=True)
+(folder / "case.toml").write_text("[fluid.oil]\\ndensity = 900.0\\n")
+(folder / "summary.json").write_text(json.dumps({"status": "done", "steps": 7, "measures": {"jet": {"tan_theta": 0.25}}}))
+"""
+
+
+class Sweep(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        self.file = self.folder / "fall.toml"
+        self.file.write_text(SWEEP)
+        (self.folder / "base.toml").write_text("[case]\n")
+
+    def error(self, old, new):
+        self.file.write_text(SWEEP.replace(old, new))
+        with self.assertRaises(plan.SweepError) as caught:
+            plan.read_sweep(self.file)
+        return str(caught.exception)
+
+    def test_points_are_the_combinations_of_the_axes(self):
+        sweep = plan.read_sweep(self.file, ["resolution.spacing=2e-3", "case.name=x y"])
+        self.assertEqual(sweep.name, "fall")
+        self.assertEqual([p.name for p in sweep.points],
+                         ["oil=A_fraction=0", "oil=B_fraction=0", "oil=B_fraction=0.5"])
+        last = sweep.points[2]
+        self.assertEqual(last.axes, {"oil": "B", "fraction": 0.5})
+        self.assertEqual(last.overrides, {"output.end_time": 0.5, "fluid.oil.viscosity": 0.3, "fluid.oil.fraction": 0.5,
+                                          "fluid.oil.stress": [[0.4, 0], [0.5, 3]], "resolution.spacing": 0.002,
+                                          "case.name": "x y"})
+
+    def test_mistakes_are_named(self):
+        self.assertIn("key 'sweep.kase': unknown", self.error("case =", "kase ="))
+        self.assertIn("is not there", self.error("base.toml", "none.toml"))
+        self.assertIn("allowed: either", self.error("values = [0.0, 0.5]", ""))
+        self.assertIn("each once", self.error("[0.0, 0.5]", "[0.5, 0.5]"))
+        self.assertIn("key 'when.match.fraction': value 0.7: allowed: 0.0, 0.5", self.error("fraction = 0.5}", "fraction = 0.7}"))
+        self.assertIn("key 'exclude.water': unknown: allowed: oil, fraction", self.error('oil = "A"\nfraction', 'water = "A"\nfraction'))
+        self.assertIn("fall.toml", self.error("[sweep]", "[sweep"))
+
+    def test_gathers_measures_and_failures(self):
+        self.file.write_text(SWEEP)
+        for name, status in (("p1", "done"), ("p2", "failed")):
+            point = self.folder / "points" / name
+            (point / "run").mkdir(parents=True)
+            (point / "result.json").write_text(json.dumps({"axes": {"oil": name}, "status": status, "reason": "x" * (status == "failed")}))
+        run = self.folder / "points/p1/run"
+        (run / "summary.json").write_text(json.dumps({"steps": 7, "measures": {"jet": {"class": "free-jet", "tan_theta": None}}}))
+        (run / "case.toml").write_text("[fluid.oil]\ndensity = 900.0\n")
+        gather.gather({"points": ["p1", "p2", "p3"]}, self.folder)
+        with open(self.folder / "results.csv", newline="") as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual(lines[0]["fluid.oil.density"], "900.0")
+        self.assertEqual((lines[0]["jet.class"], lines[0]["jet.tan_theta"]), ("free-jet", ""))
+        self.assertEqual((lines[1]["status"], lines[1]["reason"]), ("failed", "x"))
+        self.assertEqual(lines[2]["status"], "missing")
+
+    def run_sweep(self, *arguments):
+        return subprocess.run([PROJECT / "scripts/sweep", self.file, "--output", self.folder / "out", "--program",
+                               self.program, "--cores", "1", *arguments], capture_output=True, text=True)
+
+    def calls(self):
+        return (self.folder / "out/calls").read_text().splitlines()
+
+    def test_runs_each_point_once_and_outlives_failures(self):
+        if not (PROJECT / ".venv/bin/snakemake").is_file():
+            print("SKIPPED: no Snakemake; scripts/install --sweep brings it")
+            sys.exit(77)
+        self.program = self.folder / "slagflow"
+        self.program.write_text(PROGRAM)
+        self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
+        done = self.run_sweep()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("1 of 3 points done", done.stdout)
+        self.assertIn("failed: oil=B_fraction=0: error: too thick", done.stderr)
+        self.assertEqual(len(self.calls()), 3)
+        self.assertIn("--set=output.end_time=0.5", self.calls()[0])
+        with open(self.folder / "out/results.csv", newline="") as file:
+            self.assertEqual([line["jet.tan_theta"] for line in csv.DictReader(file)], ["0.25", "", ""])
+        self.run_sweep()
+        self.assertEqual(len(self.calls()), 3)  # nothing is run again
+        self.run_sweep("--retry")
+        self.assertEqual(len(self.calls()), 5)  # but for the failed ones when asked for
+        self.run_sweep("--set", "output.end_time=0.7")
+        self.assertEqual(len(self.calls()), 8)  # another sweep of the same name
+
+
+class Figures(unittest.TestCase):
+    def points(self):
+        try:
+            from plotting import paper_charts
+        except ImportError as missing:
+            print(f"SKIPPED: {missing}")
+            sys.exit(77)
+        columns = ["status", "oil", "phi", "yield", "fluid.slurry.plastic_viscosity", "fluid.slurry.density",
+                   "fluid.slurry.yield_stress", "spacing", "jet.tan_theta", "jet.travelling_time", "jet.class"]
+        rows = [["done", "A", 0, "slag", 0.0482, 965, 0, 0.002, 0.3, 0.18, "free-jet"],
+                ["done", "B", 0, "slag", 0.324, 970, 0, 0.002, 0.14, 0.19, "free-jet"],
+                ["done", "B", 0.5, "slag", 3.08, 945, 3.1, 0.002, 0.02, 0.7, "wall-flow"],
+                ["done", "B", 0.55, "slag", 4.9, 942, 5.0, 0.002, "", "", ""],
+                ["failed", "B", 0.4, "slag", "", "", "", "", "", "", ""]]
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.table = Path(scratch.name) / "results.csv"
+        with open(self.table, "w", newline="") as file:
+            csv.writer(file).writerows([columns, *rows])
+        return paper_charts, paper_charts.read_points(self.table)
+
+    def test_n_is_that_of_equation_9(self):
+        charts, points = self.points()
+        self.assertEqual(len(points), 4)  # those that ended well
+        self.assertAlmostEqual(points[1].n, 66.3, 1)  # oil B without beads, width 50 mm, depth 20 mm
+        self.assertEqual([p.bingham for p in points], [False, False, True, True])
+
+    def test_critical_n_lies_between_the_classes(self):
+        charts, points = self.points()
+        wall, jet = charts.critical_n(points)
+        self.assertAlmostEqual(wall, points[2].n)
+        self.assertAlmostEqual(jet, points[1].n)
+
+    def test_draws_the_charts(self):
+        charts, points = self.points()
+        for draw in (charts.draw_viscosity, charts.draw_jets, charts.draw_times):
+            draw(points, self.table.parent / "x.png")
+            self.assertGreater((self.table.parent / "x.png").stat().st_size, 10000)
+
+
+if __name__ == "__main__":
+    unittest.main()
