@@ -38,8 +38,11 @@ class Snapshots:
 
     def speeds(self, step):
         """Speeds in m/s, shape (particles,)."""
-        velocity = self._part(self._root["PointData/Velocity"], self._offsets("Velocity"), step)
-        return np.linalg.norm(velocity.astype(float), axis=1)
+        return np.linalg.norm(self.field("Velocity", step), axis=1)
+
+    def field(self, name, step):
+        """A field of the particles, such as Velocity, one row a particle."""
+        return self._part(self._root[f"PointData/{name}"], self._offsets(name), step).astype(float)
 
     def _offsets(self, name):
         path = f"Steps/PointDataOffsets/{name}"

@@ -1,0 +1,63 @@
+"""Bingham slag between plates at three widths of the plug, against the regularised profile; and below yield."""
+
+import numpy as np
+
+from verification.closed_forms import Papanastasiou
+from verification.suite import Row, Run, number, profile_row, relative_row
+
+NAME = "bingham_poiseuille"
+TITLE = "plane Poiseuille, slag"
+HALF_GAP = 0.01  # [m]
+ACROSS = 40
+PLUGS = (0.2, 0.5, 0.8)  # half width of the plug / half gap
+
+
+def runs(quick):
+    return [Run(f"bingham_poiseuille_{s}", "bingham_poiseuille", f"{ACROSS} across, y_p/a {s}",
+                {"body_force.acceleration": [2.3 / (2600 * s * HALF_GAP), 0, 0]}) for s in (PLUGS[:1] if quick else PLUGS)]
+
+
+def drive(result):
+    return result.case["body_force"]["acceleration"][0] * result.fluid()["density"]  # [Pa/m]
+
+
+def exact(result, z):
+    return Papanastasiou.of(result.fluid()).plane_velocity(z - HALF_GAP, HALF_GAP, drive(result))
+
+
+def layers(result, state):
+    """Mean velocity of the particles in slices one spacing wide: their middles and the means."""
+    z, u = state.position[:, 2], state.velocity[:, 0]
+    slices = np.clip((z / result.spacing).astype(int), 0, ACROSS - 1)
+    counts = np.bincount(slices, minlength=ACROSS)
+    return np.bincount(slices, z, ACROSS) / counts, np.bincount(slices, u, ACROSS) / counts
+
+
+def plug_edge(result, state):
+    """Distance from the middle to where the fluid yields [m]: half the width of what has not."""
+    return 0.5 * (1 - np.mean(state.yielded > 0.5)) * 2 * HALF_GAP
+
+
+def rows(results):
+    table = []
+    for result in results:
+        state, target = result.state(), result.run.name.endswith("0.2")
+        z, u = state.position[:, 2], state.velocity[:, 0]
+        table.append(profile_row(result.resolution, "velocity", u, exact(result, z), 0.02 if target else None))
+        middle = np.abs(z - HALF_GAP) < result.spacing
+        table.append(relative_row(result.resolution, "speed of the plug [m/s]", np.mean(u[middle]),
+                                  float(exact(result, np.array([HALF_GAP]))[0]), 0.02 if target else None))
+        edge, expected = plug_edge(result, state), result.fluid()["yield_stress"] / drive(result)
+        error = abs(edge - expected) / result.spacing
+        table.append(Row(result.resolution, "edge of the plug [m]", number(edge), number(expected),
+                         f"{error:.2f} Δx", "1 Δx", bool(error <= 1)))
+    return table
+
+
+def draw(axes, results):
+    for result in results:
+        state = result.state()
+        z = np.linspace(0, 2 * HALF_GAP, 400)
+        axes.plot(1e3 * state.velocity[:, 0], 1e3 * state.position[:, 2], ",", color="#31688e")
+        axes.plot(1e3 * exact(result, z), 1e3 * z, color="#d1652a")
+    axes.set(xlabel="u [mm/s]", ylabel="z [mm]")
