@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -54,17 +55,18 @@ class Filler {
     const Solid solid = make_solid(c_, region.shapes, region.subtract, key);
     FluidParticles& out = result_.fluid;
     const std::size_t first = out.position.size();
-    lattice_.visit_inside([&](Vec3d p) { return solid.distance(p); },
-                          [&](const SiteIndex& s, Vec3d p) {
-                            std::uint8_t& flags = flags_[lattice_.linear(s)];
-                            if (!lattice_.in_domain(s) || body_[lattice_.linear(s)] != 0 || (flags & fluid))
-                              return;
-                            if (solids_.distance(p) < wall_gap * lattice_.spacing()) return;
-                            flags |= fluid;
-                            check_room();
-                            out.position.push_back(region.jitter > 0 ? jittered(p, region.jitter) : p);
-                            out.velocity.push_back(initial_velocity(region, out.position.back()));
-                          });
+    lattice_.visit_inside(
+        [&](Vec3d p) { return solid.distance(p); },
+        [&](const SiteIndex& s, Vec3d p) {
+          std::uint8_t& flags = flags_[lattice_.linear(s)];
+          if (!lattice_.in_domain(s) || body_[lattice_.linear(s)] != 0 || (flags & fluid)) return;
+          const std::optional<Vec3d> place = off_walls(p);
+          if (!place) return;
+          flags |= fluid;
+          check_room();
+          out.position.push_back(region.jitter > 0 ? jittered(*place, region.jitter) : *place);
+          out.velocity.push_back(initial_velocity(region, out.position.back()));
+        });
     if (out.position.size() == first)
       throw InputError(
           c_.place_of(key) + ": key '" + key +
@@ -72,6 +74,26 @@ class Filler {
           "walls and of earlier regions");
     out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
     set_pressure(region, first);
+  }
+
+  // A site, or the place a quarter of a spacing off the wall that it is nearer to than that: a curved or
+  // inclined wall would otherwise lose the fluid of these sites. Nothing between two walls that leave no
+  // room.
+  std::optional<Vec3d> off_walls(Vec3d p) const {
+    const double gap = wall_gap * lattice_.spacing(), lacking = gap - solids_.distance(p);
+    if (lacking <= 0) return p;
+    const double step = 1e-4 * lattice_.spacing();
+    Vec3d away;
+    for (int k = 0; k < 3; ++k) {
+      if (c_.dimensions == 2 && k == 1) continue;
+      Vec3d ahead = p, behind = p;
+      ahead[k] += step, behind[k] -= step;
+      away[k] = solids_.distance(ahead) - solids_.distance(behind);
+    }
+    if (!(norm(away) > 0)) return {};
+    const Vec3d place = lattice_.wrapped(p + (lacking / norm(away)) * away);
+    if (solids_.distance(place) < 0.99 * gap || !lattice_.in_domain(place)) return {};
+    return place;
   }
 
   // The particle's place beside its site; nearer to it where it would be in a wall or outside of the domain.

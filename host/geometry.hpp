@@ -108,9 +108,9 @@ struct Filling {
   std::vector<std::string> warnings;
 };
 
-// Places all particles of a case. Fluid sites are in a region, in no earlier region, and at least a quarter
-// of a spacing away from walls; wall sites are in a wall and see fluid sites within their layers.
-// Throws InputError: a region without a site, too many particles, lack of memory.
+// Places all particles of a case. Fluid sites are in a region, in no earlier region and in no wall, and moved
+// to a quarter of a spacing off walls that are nearer; wall sites are in a wall and see fluid sites within
+// their layers. Throws InputError: a region without a site, too many particles, lack of memory.
 Filling fill(const Case& c);
 
 // Memory that can be had without swapping [bytes].
