@@ -1,6 +1,7 @@
 """Runs of the program against closed forms: one module a flow.
 
-A module has NAME, TITLE, runs(quick), rows(results) and draw(axes, results); see suite.py."""
+A module has NAME, TITLE, runs(quick), rows(results), draw(axes, results) and, where a target is missed, MISSES: the
+causes, by Row.key."""
 
 import importlib
 

@@ -12,7 +12,8 @@ GAP, VISCOSITY, STEP = 0.01, 20, 2e-4  # [m], [Pa s], [s]
 
 def runs(quick):
     return [Run(f"as_printed_{part}", "poiseuille_start_up", "20 across, Δt 0.2 ms", {
-        "fluid.oil.dynamic_viscosity": VISCOSITY, "region.0.jitter": 0, "numerics.theta": 0.5,
+        "fluid.oil.dynamic_viscosity": VISCOSITY, "region.0.jitter": 0, "region.0.pressure": 0,
+        "numerics.theta": 0.5,
         "numerics.explicit_part": part, "numerics.max_time_step": STEP, "numerics.tolerance": 1e-4,
         "output.end_time": 0.02, "output.interval": 0.02}) for part in ("old_velocity", "predicted")]
 

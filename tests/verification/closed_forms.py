@@ -101,6 +101,13 @@ def slump_height(x, run_out, stress_length):
     return np.sqrt(2 * stress_length * np.maximum(run_out - x, 0)) + np.pi / 2 * stress_length
 
 
+def slump_reach(fraction, run_out, stress_length):
+    """How far from the middle this fraction of a slump at rest lies."""
+    left = np.linspace(0, run_out, 20001)  # from the front
+    held = 2 / 3 * np.sqrt(2 * stress_length) * left**1.5 + np.pi / 2 * stress_length * left
+    return run_out - np.interp((1 - fraction) * held[-1], held, left)
+
+
 def huppert(time, area, nu, gravity):
     """Front of a plane Newtonian gravity current of constant `area` (Huppert 1982)."""
     return 1.4112 * (gravity * area**3 / (3 * nu))**0.2 * time**0.2

@@ -11,7 +11,7 @@ THICKNESS = 0.005  # [m]
 
 
 def runs(quick):
-    return [Run("film", "film", "20 across", {"output.end_time": 0.15 if quick else 0.3})]
+    return [Run("film", "film", "20 across")]
 
 
 def exact(result, z):
@@ -19,24 +19,32 @@ def exact(result, z):
     return Papanastasiou.of(result.fluid()).plane_velocity(THICKNESS - z, THICKNESS, gradient)
 
 
+def mean_of_end(result):
+    """Height and velocity of each layer, mean over the last third of the run: the layers of the lattice slide over
+    each other, and what they resist varies with that by some percent."""
+    states = [state for state in result.states() if state.time > 2 / 3 * result.times[-1]]
+    z = np.concatenate([state.position[:, 2] for state in states])
+    u = np.concatenate([state.velocity[:, 0] for state in states])
+    layer = np.minimum((z / result.spacing).astype(int), round(THICKNESS / result.spacing) - 1)
+    return tuple(np.bincount(layer, values) / np.bincount(layer) for values in (z, u))
+
+
 def rows(results):
     (result,) = results
-    state = result.state()
-    z, u = state.position[:, 2], state.velocity[:, 0]
+    z, u = mean_of_end(result)
     fine = np.linspace(0, THICKNESS, 2001)
     flow = np.mean(exact(result, fine)) * THICKNESS  # [m^2/s]
-    area = np.prod([result.case["domain"]["max"][k] - result.case["domain"]["min"][k] for k in (0, 1)])
     return [
-        profile_row(result.resolution, "velocity", u, exact(result, z), 0.03),
+        profile_row(result.resolution, "velocity, mean over the last third", u, exact(result, z), 0.03),
         relative_row(result.resolution, "speed of the surface [m/s]", np.mean(u[z > THICKNESS - 2 * result.spacing]),
                      float(exact(result, np.array([THICKNESS]))[0]), 0.03),
-        relative_row(result.resolution, "flow rate [m²/s]", np.sum(u) * result.spacing**3 / area, flow, 0.03),
+        relative_row(result.resolution, "flow rate [m²/s]", np.mean(u) * THICKNESS, flow, 0.03),
     ]
 
 
 def draw(axes, results):
     (result,) = results
-    state, z = result.state(), np.linspace(0, THICKNESS, 200)
-    axes.plot(1e3 * state.velocity[:, 0], 1e3 * state.position[:, 2], ".", color="#31688e", markersize=1)
+    (height, u), z = mean_of_end(result), np.linspace(0, THICKNESS, 200)
+    axes.plot(1e3 * u, 1e3 * height, ".", color="#31688e")
     axes.plot(1e3 * exact(result, z), 1e3 * z, color="#d1652a")
     axes.set(xlabel="u [mm/s]", ylabel="z [mm]")

@@ -25,6 +25,15 @@ def lines(outcome):
                      for row in outcome.rows)
 
 
+def causes(outcomes):
+    """One line for each known cause of a miss."""
+    text = []
+    for outcome in outcomes:
+        found = dict.fromkeys(outcome.causes[row.key] for row in outcome.missed() if row.key in outcome.causes)
+        text += [f"MISS {outcome.name}: {cause}" for cause in found]
+    return "\n".join(text)
+
+
 def draw_one(comparison, results, path):
     figure, axes = plt.subplots(figsize=(5, 4), layout="constrained")
     comparison.draw(axes, results)
@@ -65,4 +74,5 @@ def markdown(outcomes):
             if verdict == "MISS":
                 verdict = "**missed**"
             text.append("| " + " | ".join([f"`{name}`" if name else "", *others, verdict]) + " |")
-    return "\n".join(text)
+    missed = causes(outcomes).replace("MISS ", "- ")
+    return "\n".join(text) + (f"\n\nMissed, and why:\n\n{missed}" if missed else "")

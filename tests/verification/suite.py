@@ -30,6 +30,11 @@ class Row:
     target: str
     passed: bool | None
 
+    @property
+    def key(self):
+        """Names it in the MISSES of a module, which hold the causes of known misses."""
+        return f"{self.resolution}: {self.quantity}"
+
 
 def number(value):
     """1.2346, 3.01e-06"""
