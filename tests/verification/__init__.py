@@ -5,8 +5,8 @@ causes, by Row.key."""
 
 import importlib
 
-FLOWS = ("poiseuille", "bingham_poiseuille", "creep", "film", "pipe", "shear_wave", "as_printed", "taylor_green",
-         "rigid_rotation", "hydrostatic", "slump", "vertical_face", "gravity_current")
+FLOWS = ("poiseuille", "couette", "bingham_poiseuille", "creep", "film", "pipe", "cylinders", "shear_wave",
+         "as_printed", "taylor_green", "rigid_rotation", "hydrostatic", "slump", "vertical_face", "gravity_current")
 
 
 def comparisons():

@@ -10,10 +10,11 @@ TITLE = "plane Poiseuille, slag"
 HALF_GAP = 0.01  # [m]
 ACROSS = 40
 PLUGS = (0.2, 0.5, 0.8)  # half width of the plug / half gap
-MISSES = dict.fromkeys(
-    (f"{ACROSS} across, y_p/a {s}: edge of the plug, by Yielded [m]" for s in PLUGS),
-    "a shear rate is a sum over the support radius of 2.6 Δx, so particles up to that far inside the plug see the "
-    "sheared layer; the width of this band shrinks with Δx")
+MISSES = {
+    "40 across, y_p/a 0.2: edge of the plug, by Yielded [m]":
+        "a shear rate is a sum over the support radius of 2.6 Δx, so particles as far inside the plug see the sheared "
+        "layer and count as yielded; the velocity has its kink in the right place",
+}
 
 
 def runs(quick):
@@ -65,8 +66,8 @@ def rows(results):
         for name, edge in (("edge of the plug, by the velocity [m]", plug_edge(result, state)),
                            ("edge of the plug, by Yielded [m]", unyielded_edge(state))):
             error = abs(edge - expected) / result.spacing
-            table.append(Row(result.resolution, name, number(edge), number(expected), f"{error:.2f} Δx", "1 Δx",
-                             bool(error <= 1)))
+            table.append(Row(result.resolution, name, number(edge), number(expected), f"{error:.2f} Δx",
+                             "1 Δx" if target else "–", bool(error <= 1) if target else None))
     return table
 
 

