@@ -1,0 +1,112 @@
+"""Tests of the verification suite itself: closed forms against figures worked out elsewhere, verdicts, the table.
+With a test's name as argument only that one is run."""
+
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+try:
+    import matplotlib  # noqa: F401
+    import numpy as np
+except ImportError as missing:
+    print(f"SKIPPED: {missing}")
+    sys.exit(77)
+
+PROJECT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(PROJECT / "tests"), str(PROJECT / "scripts")]
+from verification import closed_forms, comparisons, report  # noqa: E402
+from verification.suite import bound_row, length_row, profile_row, relative_row  # noqa: E402
+
+SLAG = closed_forms.Papanastasiou(2.25, 2.3, 1e4)
+
+
+class Verification(unittest.TestCase):
+    def test_poiseuille_starts_up_as_tabulated(self):
+        gap, drive, nu = 0.02, 0.5, 0.324 / 970  # oil B
+        for unit, part in ((0.01, 0.079992), (0.05, 0.370386), (0.2, 0.856637), (1, 0.999947)):
+            middle = closed_forms.poiseuille(gap / 2, unit * gap**2 / nu, gap, drive, nu)
+            self.assertAlmostEqual(middle / 0.0748457, part, places=5)
+
+    def test_couette_starts_at_rest_and_ends_straight(self):
+        z = np.linspace(0.05, 0.85, 9)
+        np.testing.assert_allclose(closed_forms.couette(z, 100, 1, 2, 1), 2 * z, rtol=1e-12)
+        np.testing.assert_allclose(closed_forms.couette(z, 1e-4, 1, 2, 1), 0, atol=1e-9)
+
+    def test_bingham_plug_moves_as_tabulated(self):
+        y = np.linspace(-0.01, 0.01, 20001)
+        u = SLAG.plane_velocity(y, 0.01, 1150)
+        self.assertAlmostEqual(np.max(u), 0.0163557558, places=9)
+        self.assertAlmostEqual(np.mean(u) * 0.02 / 2.398815e-4, 1, places=4)
+
+    def test_pipe_carries_what_buckingham_and_reiner_say(self):
+        r = np.linspace(0, 0.01, 20001)
+        flow = np.trapz(2 * np.pi * r * SLAG.pipe_velocity(r, 0.01, 1150), r)
+        self.assertAlmostEqual(flow / closed_forms.buckingham_reiner(0.01, 1150, 2.25, 2.3), 1, places=3)
+
+    def test_cylinders_need_the_tabulated_torque(self):
+        cylinders = (4.37e-3, 6.35e-3)
+        speed = 0.596811726 / 2 * (1 - (cylinders[0] / cylinders[1])**2)
+        paste = closed_forms.Papanastasiou(0.8, 5, 1e6)
+        u, torque = paste.couette_velocity(np.array(cylinders), cylinders, speed)
+        self.assertAlmostEqual(torque / 0.000810783284, 1, places=5)
+        np.testing.assert_allclose(u, [speed * cylinders[0], 0], atol=1e-12)
+
+    def test_cylinders_without_yield_stress_are_newtonian(self):
+        r, cylinders = np.linspace(0.01, 0.02, 11), (0.01, 0.02)
+        u = closed_forms.Papanastasiou(0.5, 0, 1000).couette_velocity(r, cylinders, 10)[0]
+        np.testing.assert_allclose(u, closed_forms.newtonian_couette_velocity(r, cylinders, 10), atol=1e-9)
+
+    def test_slump_at_rest_holds_its_area(self):
+        run_out = closed_forms.arrested_slump(1, 0.1)
+        self.assertAlmostEqual(run_out, 1.7964, places=4)
+        x = np.linspace(0, run_out, 200001)
+        height = closed_forms.slump_height(x, run_out, 0.1)
+        self.assertAlmostEqual(np.trapz(height, x), 1, places=6)
+        near = x <= closed_forms.slump_reach(0.99, run_out, 0.1)
+        self.assertAlmostEqual(np.trapz(height[near], x[near]), 0.99, places=4)
+
+    def test_current_without_its_last_hundredth(self):
+        x = np.linspace(0, closed_forms.huppert_reach(0.99), 200001)
+        self.assertAlmostEqual(np.trapz((1 - x**2)**(1 / 3), x) / 0.841309, 0.99, places=4)
+
+    def test_verdicts_follow_the_targets(self):
+        wave = np.sin(np.arange(9.0))
+        self.assertTrue(profile_row("", "", 1.01 * wave, wave, 0.0101).passed)
+        self.assertFalse(profile_row("", "", 1.01 * wave, wave, 0.0099).passed)
+        self.assertIsNone(profile_row("", "", wave, wave).passed)
+        self.assertFalse(relative_row("", "", 0.97, 1.0, 0.02).passed)
+        self.assertTrue(length_row("", "", (1.7, 1.6), (0.05, 0.021)).passed)
+        self.assertFalse(length_row("", "", (1.7, 1.6), (0.05, 0.019)).passed)
+        self.assertFalse(bound_row("", "", 1.8, (1.9, None)).passed)
+        self.assertFalse(bound_row("", "", float("nan"), (None, 1)).passed)
+
+    def test_every_flow_has_cases_that_are_there(self):
+        for flow in comparisons():
+            self.assertTrue(flow.TITLE)
+            for quick in (True, False):
+                for run in flow.runs(quick):
+                    stem = run.case[1:] if run.case.startswith("/") else f"verification/{run.case}"
+                    self.assertTrue((PROJECT / "cases" / f"{stem}.toml").is_file(), run.case)
+
+    def test_readme_takes_the_table_between_its_marks(self):
+        class Outcome:
+            name, causes = "flow", {"20: depth": "too coarse"}
+            rows = [relative_row("20", "depth", 1.2, 1.0, 0.02), relative_row("20", "speed", 1.0, 1.0, 0.02)]
+
+            def missed(self):
+                return self.rows[:1]
+
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "README.md"
+            path.write_text(f"before\n{report.BEGIN}\nold\n{report.END}\nafter\n")
+            report.write_readme([Outcome()], path)
+            text = path.read_text()
+        self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
+        self.assertNotIn("old", text)
+        self.assertIn("| `flow` | 20 | depth | 1.2 | 1 | 20.00 % | 2 % | **missed** |", text)
+        self.assertIn("- flow: too coarse", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
