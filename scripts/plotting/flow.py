@@ -45,6 +45,7 @@ class Panel:
         self.view, self.labels = view, labels
         flat = view.project(np.concatenate([scene.fluid, scene.walls]))[:, :2]
         self.lower, self.upper = flat.min(axis=0) - 2 * scene.spacing, flat.max(axis=0) + 2 * scene.spacing
+        self.unit, self.factor = ("m", 1) if np.ptp(scene.fluid, axis=0).max() > 2 else ("mm", 1e3)
 
     @property
     def box(self):
@@ -53,6 +54,14 @@ class Panel:
     @property
     def size(self):
         return self.upper - self.lower
+
+    @property
+    def extent(self):
+        """The rectangle in the unit of the axes."""
+        return [self.factor * edge for edge in self.box]
+
+    def label(self, which):
+        return f"{self.labels[which]}  [{self.unit}]" if self.labels[which] else ""
 
 
 def speed_limit(run, steps):
@@ -97,7 +106,7 @@ def fluid_layer(panel, scale, scene, step, norm):
 
 
 def dress(axes, panel):
-    """Axes in millimetres; for the oblique view a bar of a round length instead."""
+    """Axes with their names; for the oblique view a bar of a round length instead."""
     axes.set_aspect("equal")
     axes.tick_params(labelsize=7, length=2.5, color="0.5", labelcolor="0.25")
     for spine in axes.spines.values():
@@ -105,7 +114,7 @@ def dress(axes, panel):
     axes.xaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 5, 10]))
     axes.yaxis.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
     if panel.labels[1]:
-        axes.set_ylabel(panel.labels[1], fontsize=8, labelpad=1)
+        axes.set_ylabel(panel.label(1), fontsize=8, labelpad=1)
     else:
         axes.tick_params(labelleft=False)
     if panel.view is not OBLIQUE:
@@ -113,20 +122,20 @@ def dress(axes, panel):
     axes.set(xticks=[], yticks=[])
     for spine in axes.spines.values():
         spine.set_visible(False)
-    left, right, bottom, _ = (1e3 * edge for edge in panel.box)
+    left, right, bottom, _ = panel.extent
     unit = 10 ** np.floor(np.log10((right - left) / 3))
     length = unit * max(m for m in (1, 2, 5) if m * unit <= (right - left) / 3)
     axes.plot([left, left + length], [bottom, bottom], color="0.2", linewidth=1.6, solid_capstyle="butt",
               clip_on=False)
-    axes.annotate(f"{length:g} mm", (left + length / 2, bottom), (0, 3), textcoords="offset points",
+    axes.annotate(f"{length:g} {panel.unit}", (left + length / 2, bottom), (0, 3), textcoords="offset points",
                   ha="center", va="bottom", fontsize=7, color="0.2")
 
 
 def panels_of(scene):
-    side = Panel(scene, SIDE, ("x  [mm]", "z  [mm]"))
+    side = Panel(scene, SIDE, ("x", "z"))
     if scene.run.dimensions == 2:
         return [side]
-    return [side, Panel(scene, FRONT, ("y  [mm]", "")), Panel(scene, OBLIQUE, ("", ""))]
+    return [side, Panel(scene, FRONT, ("y", "")), Panel(scene, OBLIQUE, ("", ""))]
 
 
 def add_colour_bar(figure, norm, layout):
@@ -159,15 +168,14 @@ def draw_row(figure, layout, scene, columns, row, norm):
     left = MARGIN
     for panel, behind in columns:
         axes = layout.axes(figure, panel, left, row)
-        extent = [1e3 * edge for edge in panel.box]
         for layer in behind + [fluid_layer(panel, layout.scale * DPI, scene, scene.steps[row], norm)]:
-            axes.imshow(layer, origin="lower", extent=extent, interpolation="none")
+            axes.imshow(layer, origin="lower", extent=panel.extent, interpolation="none")
         dress(axes, panel)
         if left == MARGIN:
             time = scene.run.fluid.times[scene.steps[row]]
             axes.set_title(f"t = {time:.3g} s", loc="left", fontsize=9, pad=4)
         if row == len(scene.steps) - 1:
-            axes.set_xlabel(panel.labels[0], fontsize=8, labelpad=1)
+            axes.set_xlabel(panel.label(0), fontsize=8, labelpad=1)
         left += layout.scale * panel.size[0] + GAP
 
 

@@ -41,7 +41,8 @@ TEST(Cases, ParticleCountsAreAsTheirCommentsSay) {
       {"dam_discharge", 102000}, {"dam_discharge_2mm", 12500}, {"dam_discharge_quick", 2700},
       {"slag", 12500},           {"slurry_a_phi50", 12500},    {"oil_a", 12500},
       {"oil_b", 12500},          {"hydrostatic_tank", 1600},   {"hydrostatic_bingham", 1600},
-      {"column_collapse", 6400}, {"spinning_block", 1000}};
+      {"column_collapse", 6400}, {"spinning_block", 1000},     {"l_box", 2592},
+      {"mini_slump", 4664}};
   for (const auto& [name, count] : counts)
     EXPECT_EQ(build_setup(load_case(path_of(name))).setup.particles.position.size(), count) << name;
 }
