@@ -82,7 +82,8 @@ struct DensityAndShear {
             weight * ((pressure / c.flow.sound_speed_squared - centre.excess) + dot(centre.hydrostatic, d));
       if (other.w < 0) continue;
       const Real stick = no_slip_factor({d, c.wall.normal[j], c.wall.back[j]}, c.flow.spacing, other.w);
-      sums.shear -= stick * weight * approach * approach / (r2 + c.flow.softening);
+      // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
+      sums.shear -= 2 * stick * weight * approach * approach / (r2 + c.flow.softening);
     }
   }
 };

@@ -165,8 +165,8 @@ inline Sum shear_rate_squared(const World& w, std::size_t i) {
     sum.add(factor * std::pow(dot(p.v - velocity, d), 2), factor * dot(p.v - velocity, p.v - velocity) * r2);
   };
   for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { pair(d, j.volume, j.v); });
-  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
-    if (j.sticks) pair(d, no_slip_factor(w, j, d) * w.wall_volume(), j.v);
+  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {  // i carries all that the pair dissipates
+    if (j.sticks) pair(d, 2 * no_slip_factor(w, j, d) * w.wall_volume(), j.v);
   });
   return sum;
 }

