@@ -75,6 +75,7 @@ def draw(axes, results):
     for result in results:
         state = result.state()
         z = np.linspace(0, 2 * HALF_GAP, 400)
-        axes.plot(1e3 * state.velocity[:, 0], 1e3 * state.position[:, 2], ",", color="#31688e")
+        axes.plot(1e3 * state.velocity[:, 0], 1e3 * state.position[:, 2], ".", color="#31688e",
+                  markersize=1)
         axes.plot(1e3 * exact(result, z), 1e3 * z, color="#d1652a")
     axes.set(xlabel="u [mm/s]", ylabel="z [mm]")

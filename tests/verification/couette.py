@@ -39,6 +39,6 @@ def draw(axes, results):
     z = np.linspace(0, GAP, 200)
     for time in (0.01, 0.04, 0.2):
         state = results[-1].state(time)
-        axes.plot(state.velocity[:, 0], 1e3 * state.position[:, 2], ",", color="#31688e")
+        axes.plot(state.velocity[:, 0], 1e3 * state.position[:, 2], ".", color="#31688e", markersize=1)
         axes.plot(series(results[-1], z, state.time), 1e3 * z, color="#d1652a")
     axes.set(xlabel="u [m/s]", ylabel="z [mm]")

@@ -44,6 +44,6 @@ def draw(axes, results):
     for time in (0.01, 0.04, 0.2):
         state = result.state(time)
         order = np.argsort(state.position[:, 2])
-        axes.plot(state.velocity[:, 0], 1e3 * state.position[:, 2], ",", color="#31688e")
+        axes.plot(state.velocity[:, 0], 1e3 * state.position[:, 2], ".", color="#31688e", markersize=0.6)
         axes.plot(series(result, state)[order], 1e3 * state.position[order, 2], color="#d1652a")
     axes.set(xlabel="u [m/s]", ylabel="z [mm]")

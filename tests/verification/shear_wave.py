@@ -103,5 +103,7 @@ def draw(axes, results):
         axes.loglog(1e3 * steps, errors, mark + "-", label=name)
         slope = 2 if theta == 0.5 else 1
         axes.loglog(1e3 * steps, errors[0] * (steps / steps[0])**slope, ":", color="grey")
+    axes.set_xticks(1e3 * np.array(STEPS), [f"{1e3 * step:g}" for step in STEPS])
+    axes.minorticks_off()
     axes.set(xlabel="Δt [ms]", ylabel="error of the amplitude")
     axes.legend(fontsize="x-small")
