@@ -179,13 +179,14 @@ Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstant
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
   const Vec3d force = setup.gravity + setup.body_acceleration;
+  Vec3d lowest;  // point of the domain, relative to its lower corner
+  for (int k = 0; k < 3; ++k) lowest[k] = force[k] > 0 ? setup.domain.upper[k] - setup.domain.lower[k] : 0;
   Vitals v;
   v.max_speed = std::sqrt(largest(c, scratch, n, SpeedSquared{motion}));
   v.max_compression = largest(c, scratch, n, Compression{fluids, kind, motion, 1});
   v.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
-  v.stored_energy =
-      total(c, scratch, n, PotentialEnergy{fluids, kind, f.position.span(), force, setup.domain.lower}) +
-      total(c, scratch, n, ElasticEnergy{fluids, kind, motion, setup.numerics.sound_speed});
+  v.stored_energy = total(c, scratch, n, PotentialEnergy{fluids, kind, f.position.span(), force, -lowest}) +
+                    total(c, scratch, n, ElasticEnergy{fluids, kind, motion, setup.numerics.sound_speed});
   return v;
 }
 

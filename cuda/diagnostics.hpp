@@ -23,7 +23,7 @@ struct Vitals {
   double max_speed = 0;        // [m/s]
   double max_compression = 0;  // (rho - rho0)/rho0
   double kinetic_energy = 0;   // [J]
-  double stored_energy = 0;    // [J] potential and elastic
+  double stored_energy = 0;    // [J] potential, from the lowest point of the domain, and elastic
 };
 Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
                       DiagnosticScratch&);

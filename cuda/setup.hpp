@@ -92,10 +92,13 @@ struct NumericsSetup {
   double relaxation = 1.2;  // omega of SOR
 };
 
+// A fluid this many times faster than sound has run away.
+constexpr double runaway_mach = 3;
+
 // When a run stops because its state cannot be true any more.
 struct LimitSetup {
   int interval = 10;                  // steps between looks
-  double max_speed = 0;               // [m/s], 0: three times the sound speed
+  double max_speed = 0;               // [m/s], 0: runaway_mach times the sound speed
   double max_compression = 0.1;       // (rho - rho0)/rho0
   double max_lost_fraction = 1;       // of the particles, through all faces of the domain
   double min_time_step_ratio = 1e-3;  // of the acoustic time step

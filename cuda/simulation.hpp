@@ -100,8 +100,11 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  // Advances by one time step. Throws Error when the state cannot go on (not-a-number, unconverged solve).
+  // Advances by one time step. Throws Error when the state cannot go on: not-a-number, unconverged solve, or,
+  // looked at every few steps, a limit of SimulationSetup::limits.
   void step();
+  // Looks at the limits now. Throws Error as step does.
+  void require_sound();
 
   double time() const;       // [s]
   double time_step() const;  // [s] of the last step; of the coming one before the first

@@ -14,7 +14,6 @@ struct SavedNumbers {
   std::int64_t steps, builds;
   std::int64_t solver_steps, solver_iterations, solver_unconverged;
   double worst_residual, residual, velocity_error, lowest_energy;
-  std::int64_t watched_departures;
   std::int32_t max_iterations, iterations, converged, real_size;
 };
 
@@ -86,11 +85,11 @@ SavedState Simulation::save() const {
   SavedState result;
   Saver saver(result);
   visit_arrays(saver, s.fluid, s.wall, s.list_places, s.departed, s.planes.records);
-  std::vector<SavedNumbers> numbers{
-      {s.time, s.dt, s.displacement, s.dissipated, s.steps, s.builds, s.solver.steps, s.solver.iterations,
-       s.solver.unconverged, s.solver.worst_residual, s.report.residual, s.report.velocity_error,
-       s.watch.memory.lowest_energy, s.watch.memory.departed, s.solver.max_iterations, s.report.iterations,
-       s.report.converged ? 1 : 0, static_cast<std::int32_t>(sizeof(Real))}};
+  std::vector<SavedNumbers> numbers{{s.time, s.dt, s.displacement, s.dissipated, s.steps, s.builds,
+                                     s.solver.steps, s.solver.iterations, s.solver.unconverged,
+                                     s.solver.worst_residual, s.report.residual, s.report.velocity_error,
+                                     s.watch.lowest_energy, s.solver.max_iterations, s.report.iterations,
+                                     s.report.converged ? 1 : 0, static_cast<std::int32_t>(sizeof(Real))}};
   saver.values("numbers", numbers);
   return result;
 }
@@ -119,7 +118,7 @@ void Simulation::restore(const SavedState& saved) {
   s.steps = v.steps, s.builds = v.builds;
   s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_unconverged};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
-  s.watch.memory = {v.lowest_energy, v.watched_departures};
+  s.watch.lowest_energy = v.lowest_energy;
   s.rebuild_lists_as_saved();
 }
 

@@ -20,12 +20,23 @@ double density_excess(Quad motion) { return static_cast<double>(motion.w); }
 
 }  // namespace
 
-Watch::Watch(Context& context, const SimulationSetup& setup, std::int64_t particles)
+Watch::Watch(Context& context, const SimulationSetup& setup)
     : context_(context),
       setup_(setup),
-      particles_(static_cast<double>(particles)),
-      mass_(particles_ * particle_mass(setup, 0)) {
-  if (setup_.limits.max_speed <= 0) setup_.limits.max_speed = 3 * setup_.numerics.sound_speed;
+      particles_(static_cast<double>(setup.particles.fluid.size())),
+      mass_(0),
+      max_speed_(setup.limits.max_speed > 0 ? setup.limits.max_speed
+                                            : runaway_mach * setup.numerics.sound_speed) {
+  std::vector<std::int64_t> count(setup.fluids.size());
+  for (const std::uint8_t kind : setup.particles.fluid) ++count[kind];
+  for (std::size_t kind = 0; kind < count.size(); ++kind)
+    mass_ += static_cast<double>(count[kind]) * particle_mass(setup, kind);
+}
+
+void Watch::begin(const FluidArrays& fluid, Span<const FluidConstants> fluids, DiagnosticScratch& scratch) {
+  if (fluid.count == 0) return;
+  const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
+  lowest_energy = vitals.kinetic_energy + vitals.stored_energy;
 }
 
 void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, const WatchMoment& now,
@@ -34,30 +45,35 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
   const double lost = static_cast<double>(now.departed) / larger(1.0, particles_);
   if (lost > limits.max_lost_fraction)
     fail(now,
-         "a fraction " + number(lost) + " of the particles has left the domain; the limit is " +
+         "a fraction " + number(lost) +
+             " of the particles has left the domain; limits.max_lost_fraction is " +
              number(limits.max_lost_fraction),
          "a larger domain, or close its walls");
-  if (now.time_step < limits.min_time_step_ratio * acoustic_time_step(setup_))
-    fail(now, "the time step fell to " + number(now.time_step) + " s",
+  const double least_step = limits.min_time_step_ratio * acoustic_time_step(setup_);
+  if (now.time_step < least_step)
+    fail(now,
+         "the time step fell to " + number(now.time_step) + " s; limits.min_time_step_ratio allows " +
+             number(least_step) + " s",
          "a larger sound_speed or a smaller spacing");
   if (fluid.count == 0) return;
   const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
-  if (!(vitals.max_speed <= limits.max_speed))
+  if (!(vitals.max_speed <= max_speed_))
     fail_at_worst(
         fluid, now,
-        "a speed of " + number(vitals.max_speed) + " m/s; the limit is " + number(limits.max_speed) + " m/s",
+        "a speed of " + number(vitals.max_speed) + " m/s; limits.max_speed is " + number(max_speed_) + " m/s",
         speed_squared, "a smaller courant, a larger sound_speed, or thicker walls");
   if (!(vitals.max_compression <= limits.max_compression))
     fail_at_worst(fluid, now,
-                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) + "; the limit is " +
-                      number(limits.max_compression),
+                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
+                      "; limits.max_compression is " + number(limits.max_compression),
                   density_excess, "a larger sound_speed or a smaller courant");
   check_energy(vitals, now);
 }
 
-// Kinetic, stored and dissipated energy can only fall. The measure of what is a growth: kinetic and
-// dissipated energy themselves, and lifting all fluid by one spacing. Departures take energy with them, on a
-// periodic axis along the force the potential has no single value, and walls that move do work.
+// Kinetic, stored and dissipated energy can only fall; potential energy counts from the lowest point of the
+// domain, so that a particle that leaves takes energy with it and never adds any. The measure of what is a
+// growth: kinetic and dissipated energy themselves, and lifting all fluid by one spacing. On a periodic axis
+// along the force the potential has no single value, and walls that move do work.
 void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   for (const WallBody& body : setup_.bodies)
     if (!body.surface.zero()) return;
@@ -65,14 +81,13 @@ void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   for (int k = 0; k < 3; ++k)
     if (setup_.domain.periodic[static_cast<std::size_t>(k)] && force[k] != 0) return;
   const double energy = vitals.kinetic_energy + vitals.stored_energy + now.dissipated;
-  if (now.departed != memory.departed) memory = {energy, now.departed};
-  memory.lowest_energy = smaller(memory.lowest_energy, energy);
+  lowest_energy = smaller(lowest_energy, energy);
   const double scale = vitals.kinetic_energy + now.dissipated + mass_ * norm(force) * setup_.spacing;
-  const double growth = (energy - memory.lowest_energy) / scale;
+  const double growth = (energy - lowest_energy) / scale;
   if (growth > setup_.limits.max_energy_growth)
     fail(now,
-         "the energy grew by " + number(energy - memory.lowest_energy) +
-             " J without a source; the limit is a share of " + number(setup_.limits.max_energy_growth),
+         "the energy grew by " + number(energy - lowest_energy) + " J without a source, a share of " +
+             number(growth) + "; limits.max_energy_growth is " + number(setup_.limits.max_energy_growth),
          "a smaller courant");
 }
 

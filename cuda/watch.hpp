@@ -13,17 +13,17 @@ struct WatchMoment {
 
 class Watch {
  public:
-  Watch(Context&, const SimulationSetup&, std::int64_t particles);
+  // The setup must outlive the watch; its particles are needed here alone.
+  Watch(Context&, const SimulationSetup& setup);
+
+  // Remembers the energy of the start.
+  void begin(const FluidArrays&, Span<const FluidConstants>, DiagnosticScratch&);
 
   // Throws Error that names the limit, its value, the particle concerned with its state, and what to try.
   void look(const FluidArrays&, Span<const FluidConstants>, const WatchMoment&, DiagnosticScratch&);
 
-  // Lowest total energy seen since the last departure [J]; kept in checkpoints.
-  struct Memory {
-    double lowest_energy;
-    std::int64_t departed;
-  };
-  Memory memory{1e300, 0};
+  // Lowest total energy seen so far [J]; kept in checkpoints.
+  double lowest_energy = 1e300;
 
  private:
   void check_energy(const Vitals&, const WatchMoment&);
@@ -32,8 +32,8 @@ class Watch {
                                   double (*badness)(Quad motion), const std::string& advice) const;
 
   Context& context_;
-  SimulationSetup setup_;
-  double particles_, mass_;
+  const SimulationSetup& setup_;
+  double particles_, mass_, max_speed_;
 };
 
 }  // namespace slagflow

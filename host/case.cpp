@@ -56,6 +56,7 @@ Case parse_case(const std::string& text, const std::string& file, const std::vec
   read_regions(top, c);
   read_walls(top, c);
   read_numerics(top, c);
+  read_limits(top, c);
   read_output(top, c);
   read_measures(top, c);
   top.finish();

@@ -126,6 +126,7 @@ struct Case {
   DomainSetup domain;
   std::string kernel = "lucy";
   NumericsSetup numerics;  // sound_speed 0: automatic, see BuiltCase::resolved
+  LimitSetup limits;       // max_speed 0: automatic, see BuiltCase::resolved
   OutputSpec output;
   std::vector<MeasureSpec> measures;
 

@@ -22,8 +22,12 @@ void read_fluids(CaseTable& top, Case& c);    // [fluid.NAME]
 void read_regions(CaseTable& top, Case& c);   // [[region]]
 void read_walls(CaseTable& top, Case& c);     // [[wall]]
 void read_numerics(CaseTable& top, Case& c);  // [numerics]
+void read_limits(CaseTable& top, Case& c);    // [limits]
 void read_output(CaseTable& top, Case& c);    // [output]
 void read_measures(CaseTable& top, Case& c);  // [[measure]]
+
+// [limits] for the writer.
+std::string limits_text(const LimitSetup& limits);
 
 // A list of shapes; STL files are looked for next to the case file.
 bool read_shapes(CaseTable& parent, const char* key, Need need, const std::string& case_file,

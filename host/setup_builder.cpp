@@ -79,6 +79,9 @@ BuiltCase build_setup(const Case& c) {
   setup.domain = c.domain;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
   setup.numerics = built.resolved.numerics;
+  if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
+  setup.limits = built.resolved.limits;
+  for (const MeasureSpec& measure : c.measures) setup.fronts.push_back(front_setup(c, measure));
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
   return built;
 }

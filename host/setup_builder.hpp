@@ -11,7 +11,7 @@ namespace slagflow {
 
 struct BuiltCase {
   SimulationSetup setup;              // fronts: one for each measure, in the order of Case::measures
-  Case resolved;                      // the case with the automatic sound speed replaced by its value
+  Case resolved;                      // the case with automatic speeds replaced by their values
   std::vector<std::string> warnings;  // one line each, for stderr
 };
 
