@@ -8,6 +8,10 @@
 #include <cstdio>
 #include <limits>
 
+#include "backend/error.hpp"
+#include "host/geometry.hpp"
+#include "host/toml_reader.hpp"
+
 namespace slagflow {
 namespace {
 
@@ -112,7 +116,24 @@ std::string duration(double seconds) {
 
 std::string number(double value) { return std::isnan(value) ? "-" : format("%.4g", value); }
 
+double memory_of(const SimulationSetup& setup) {
+  return bytes_per_fluid_particle * static_cast<double>(setup.particles.position.size()) +
+         bytes_per_wall_particle * static_cast<double>(setup.walls.position.size());
+}
+
 }  // namespace
+
+void require_memory(const BuiltCase& built, double available) {
+  const SimulationSetup& setup = built.setup;
+  const double needed = memory_of(setup);
+  if (needed <= available) return;
+  const char* key = "resolution.spacing";
+  throw InputError(built.resolved.place_of(key) + ": key '" + key + "': value " + show(setup.spacing) +
+                   " gives " + std::to_string(setup.particles.position.size()) + " fluid and " +
+                   std::to_string(setup.walls.position.size()) + " wall particles, which need about " +
+                   gigabytes(needed) + " of memory, " + gigabytes(available) +
+                   " are available: allowed: a larger spacing or smaller regions");
+}
 
 CaseCheck check_case(const BuiltCase& built) {
   const SimulationSetup& setup = built.setup;
@@ -128,8 +149,7 @@ CaseCheck check_case(const BuiltCase& built) {
   add_numbers(check, setup);
   check.mach = check.speed / check.sound_speed;
   const auto fluid = static_cast<double>(check.fluid_particles);
-  check.memory =
-      bytes_per_fluid_particle * fluid + bytes_per_wall_particle * static_cast<double>(check.wall_particles);
+  check.memory = memory_of(setup);
   check.run_time = check.steps * fluid / particle_steps_per_second;
   add_warnings(check, built);
   return check;

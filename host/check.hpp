@@ -9,7 +9,7 @@
 
 namespace slagflow {
 
-// Costs of the CPU build, for estimates only.
+// Costs, for estimates only; the time is that of the CPU build.
 inline constexpr double bytes_per_fluid_particle = 2800;
 inline constexpr double bytes_per_wall_particle = 500;
 inline constexpr double particle_steps_per_second = 4e5;  // fluid particles, two cores
@@ -40,6 +40,10 @@ struct CaseCheck {
 
 // eta is the first parameter of a fluid's rheology (the plastic or the dynamic viscosity).
 CaseCheck check_case(const BuiltCase& built);
+
+// Throws InputError that says how much memory the case needs and how much there is, when it is more than that.
+// [bytes]
+void require_memory(const BuiltCase& built, double available);
 
 // For people.
 std::string to_text(const CaseCheck& check);

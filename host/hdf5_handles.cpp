@@ -178,7 +178,9 @@ std::vector<std::string> members(const File& file, const std::string& path) {
 void write_text(const File& file, hid_t object, const char* name, const std::string& text) {
   const Handle type = text_type(H5T_VARIABLE);
   H5Tset_cset(type, H5T_CSET_UTF8);
-  const Handle attribute = create_attribute(file, object, name, type, scalar_space());
+  const Handle attribute = H5Aexists(object, name) > 0
+                               ? Handle(file.check(H5Aopen(object, name, H5P_DEFAULT), "read"), H5Aclose)
+                               : create_attribute(file, object, name, type, scalar_space());
   const char* data = text.c_str();
   file.check(H5Awrite(attribute, type, &data), "write to");
 }

@@ -93,7 +93,8 @@ Handle open_group(const File& file, const std::string& path);
 Handle open_dataset(const File& file, const std::string& path);
 std::vector<std::string> members(const File& file, const std::string& path);  // names in a group
 
-// Attributes. Text is of variable length, so a long one needs no more than a reference in the header.
+// Attributes. Text is of variable length, so a long one needs no more than a reference in the header; it
+// replaces an earlier one of the same name.
 void write_text(const File& file, hid_t object, const char* name, const std::string& text);
 void write_fixed_text(const File& file, hid_t object, const char* name, const std::string& text);
 void write_integers(const File& file, hid_t object, const char* name, const std::vector<std::int64_t>& v);

@@ -69,7 +69,12 @@ void HistoryFile::write(const std::vector<double>& values) {
 
 void HistoryFile::put(const std::string& line) {
   file_ << line << std::flush;
-  if (!file_) throw Error("cannot write to " + path_ + ": " + std::strerror(errno));
+  if (!file_) {
+    const std::string reason = std::strerror(errno);
+    std::error_code ignored;  // a line is there as a whole or not at all
+    std::filesystem::resize_file(path_, static_cast<std::uintmax_t>(end_.bytes), ignored);
+    throw Error("cannot write to " + path_ + ": " + reason);
+  }
   end_.bytes += static_cast<std::int64_t>(line.size());
 }
 

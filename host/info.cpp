@@ -46,8 +46,10 @@ Range range_of(const File& file, const std::string& table, const std::string& of
   const auto first = integers(file, offsets, static_cast<std::int64_t>(steps.times.size()));
   Range range;
   std::vector<double> values;
+  const auto present = rows(file, dataset);
   for (std::size_t s = 0; s < first.size(); ++s) {
     const auto count = static_cast<std::size_t>(steps.points[s]);
+    if (count > present) throw Error(table + ": a time step is longer than the data");
     values.resize(components * count);
     read_rows(file, dataset, {static_cast<hsize_t>(first[s]), count}, H5T_NATIVE_DOUBLE, values.data());
     for (const double value : values) {
@@ -84,7 +86,7 @@ std::string steps_line(const Steps& steps) {
 std::string provenance_lines(const std::vector<std::pair<std::string, std::string>>& texts) {
   std::string text;
   for (const auto& [name, value] : texts) {
-    if (name != "case_text" && name != "Type") text += name + ": " + value + "\n";
+    if (name != "case_text" && name != "Type" && !value.empty()) text += name + ": " + value + "\n";
   }
   return text;
 }

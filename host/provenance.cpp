@@ -1,14 +1,15 @@
 #include "host/provenance.hpp"
 
 #include <array>
+#include <cstring>
 #include <ctime>
+#include <map>
 #include <type_traits>
 
 #include "simulation.hpp"
 #include "version.hpp"
 
 namespace slagflow {
-namespace {
 
 std::string now_utc() {
   const std::time_t now = std::time(nullptr);
@@ -19,13 +20,29 @@ std::string now_utc() {
   return text.data();
 }
 
-}  // namespace
-
 std::vector<std::pair<std::string, std::string>> Provenance::attributes() const {
-  return {{"case", case_name},      {"case_text", case_text},    {"version", version},
-          {"commit", commit},       {"compiler", compiler},      {"build_type", build_type},
-          {"backend", backend},     {"device", device},          {"threads", std::to_string(threads)},
-          {"precision", precision}, {"started_utc", started_utc}};
+  return {{"case", case_name},      {"case_text", case_text},     {"version", version},
+          {"commit", commit},       {"compiler", compiler},       {"build_type", build_type},
+          {"backend", backend},     {"device", device},           {"threads", std::to_string(threads)},
+          {"precision", precision}, {"started_utc", started_utc}, {"ended_utc", ended_utc}};
+}
+
+void Provenance::begin_with(const std::vector<std::pair<std::string, std::string>>& attributes_of_start) {
+  constexpr const char* between = ", resumed with ";
+  const std::map<std::string, std::string*> changing{{"version", &version},
+                                                     {"commit", &commit},
+                                                     {"compiler", &compiler},
+                                                     {"build_type", &build_type},
+                                                     {"device", &device}};
+  for (const auto& [name, first] : attributes_of_start) {
+    if (name == "started_utc") started_utc = first;
+    const auto found = changing.find(name);
+    if (found == changing.end()) continue;
+    std::string& here = *found->second;
+    const auto last = first.rfind(between);
+    const bool same = here == (last == std::string::npos ? first : first.substr(last + std::strlen(between)));
+    here = same ? first : first + between + here;
+  }
 }
 
 Provenance build_provenance() {

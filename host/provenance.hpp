@@ -18,10 +18,18 @@ struct Provenance {
   std::string case_name;
   std::string case_text;    // the resolved case, TOML
   std::string started_utc;  // ISO 8601
+  std::string ended_utc;    // the same; empty while the run is on
 
   // Name and value of each, as attributes of a file.
   std::vector<std::pair<std::string, std::string>> attributes() const;
+
+  // Of a resumed run: takes over what is known of its start. Where the program or the device has changed,
+  // both are named.
+  void begin_with(const std::vector<std::pair<std::string, std::string>>& attributes_of_start);
 };
+
+// The present time, ISO 8601.
+std::string now_utc();
 
 // The build and the device, without a case.
 Provenance build_provenance();

@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "host/check.hpp"
 #include "host/checkpoint_store.hpp"
+#include "host/geometry.hpp"
 #include "host/run_folder.hpp"
 #include "host/run_loop.hpp"
 #include "host/setup_builder.hpp"
@@ -53,6 +56,8 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   const std::string folder = run_folder(c, options);
   require_free_folder(folder, options.overwrite);
   BuiltCase built = build_setup(limited);
+  const double on_device = device_info().memory;
+  require_memory(built, on_device > 0 ? on_device : available_memory());
 
   Log log(options.verbosity);
   create_folder(folder);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -19,17 +20,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* unfinished_suffix = ".tmp";
+
 // Checkpoints first: once the files that they count on begin to go, nothing must be left to resume from.
-constexpr std::array<const char*, 10> run_files{checkpoint_name,
-                                                previous_checkpoint_name,
-                                                unfinished_checkpoint_name,
-                                                damaged_checkpoint_name,
-                                                "case.toml",
-                                                "particles.vtkhdf",
-                                                "walls.vtkhdf",
-                                                "history.csv",
-                                                "summary.json",
-                                                "log.txt"};
+constexpr std::array<const char*, 9> run_files{
+    checkpoint_name, previous_checkpoint_name, damaged_checkpoint_name,
+    "case.toml",     "particles.vtkhdf",       "walls.vtkhdf",
+    "history.csv",   "summary.json",           "log.txt"};
 
 }  // namespace
 
@@ -65,9 +62,11 @@ void create_folder(const std::string& folder) {
 
 void clear_folder(const std::string& folder) {
   std::error_code failed;
-  for (const char* name : run_files) {
-    fs::remove(fs::path(folder) / name, failed);
-    if (failed) throw Error("cannot remove " + folder + "/" + name + ": " + failed.message());
+  for (const std::string name : run_files) {
+    for (const std::string& file : {name, name + unfinished_suffix}) {
+      fs::remove(fs::path(folder) / file, failed);
+      if (failed) throw Error("cannot remove " + folder + "/" + file + ": " + failed.message());
+    }
   }
   const std::regex profile("profile_.*\\.csv");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -78,9 +77,13 @@ void clear_folder(const std::string& folder) {
 }
 
 void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::trunc);
+  const std::string unfinished = path + unfinished_suffix;
+  std::ofstream file(unfinished, std::ios::trunc);
   file << text << std::flush;
-  if (!file) throw Error("cannot write to " + path + ": " + std::strerror(errno));
+  if (file && std::rename(unfinished.c_str(), path.c_str()) == 0) return;
+  const std::string reason = std::strerror(errno);
+  std::remove(unfinished.c_str());
+  throw Error("cannot write to " + path + ": " + reason);
 }
 
 }  // namespace slagflow

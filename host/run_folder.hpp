@@ -33,7 +33,8 @@ void create_folder(const std::string& folder);
 // Removes what an earlier run wrote there and nothing else. Throws Error naming the file.
 void clear_folder(const std::string& folder);
 
-// Writes a whole file. Throws Error naming it.
+// Writes a whole file, beside an earlier one, and then puts it in its place. Throws Error naming it; an
+// earlier one is then as it was.
 void write_file(const std::string& path, const std::string& text);
 
 }  // namespace slagflow

@@ -71,7 +71,8 @@ void Run::go_on_from(Checkpoint checkpoint) {
   counts_.max_density_error = run.max_density_error;
   wall_before_ = run.wall_time;
   resumes_ = run.resumes + 1;
-  provenance_.started_utc = checkpoint.text("started_utc");
+  provenance_.begin_with(checkpoint.texts);
+  saved_time_ = run.time;
   resumed_ = std::move(checkpoint);
 }
 
@@ -126,6 +127,7 @@ void Run::open_outputs() {
   history_.emplace(history, columns, HistoryEnd{run.history_lines, run.history_bytes});
   snapshots_.emplace(folder_, sizes, PresentSnapshots(run.snapshots));
   profiles_.emplace(built_.resolved, folder_, run.profiles);
+  snapshots_->describe(provenance_.attributes());  // another end time, perhaps
 }
 
 RunStatus Run::loop() {
@@ -177,7 +179,7 @@ void Run::take_snapshot() {
 bool Run::checkpoint_due() {
   if (signals_.take_checkpoint_request()) return true;
   const double interval = built_.resolved.output.checkpoint_interval;
-  return interval > 0 && seconds_between(saved_, Clock::now()) >= interval;
+  return interval > 0 && (!saved_time_ || seconds_between(saved_, Clock::now()) >= interval);
 }
 
 // What the loop remembers now. The outputs must be on disk before a checkpoint counts on them.
@@ -206,17 +208,21 @@ RunRecord Run::run_record() {
 }
 
 // Comes before the outputs of the end, which are not of the schedule: a resumed run drops them and gives
-// what an unbroken one gives.
+// what an unbroken one gives. A state that the watch would not let pass is no checkpoint.
 void Run::save_checkpoint() {
+  simulation_->require_sound();
   const RunRecord run = run_record();
   store_.write({provenance_.attributes(), run, simulation_->save()});
+  saved_time_ = run.time;
 }
 
 // A run is worth more than a checkpoint: it goes on without one, but not without its other outputs.
 void Run::try_to_save_checkpoint() {
+  simulation_->require_sound();
   const RunRecord run = run_record();
   try {
     store_.write({provenance_.attributes(), run, simulation_->save()});
+    saved_time_ = run.time;
     log_.info("checkpoint at " + std::to_string(run.time) + " s");
   } catch (const Error& error) {
     log_.warning(std::string("no checkpoint, the last one stays: ") + error.what());
@@ -228,6 +234,8 @@ void Run::end_outputs() {
   record();
   take_snapshot();
   snapshots_->close();
+  provenance_.ended_utc = now_utc();
+  snapshots_->describe(provenance_.attributes());
 }
 
 void Run::fail(const std::string& reason) {
@@ -235,6 +243,9 @@ void Run::fail(const std::string& reason) {
   outcome_.reason = reason;
   log_.error(reason);
   if (snapshots_) save_last_state();
+  if (saved_time_)
+    log_.info(std::string("the last good state, at ") + std::to_string(*saved_time_) + " s, is in " +
+              checkpoint_name);
 }
 
 void Run::save_last_state() {
@@ -255,6 +266,7 @@ void Run::write_summary() {
   }
   constexpr const char* names[] = {"done", "interrupted", "failed"};
   summary.set("status", names[static_cast<int>(outcome_.status)]).set("resumes", resumes_);
+  summary.set("ended_utc", provenance_.ended_utc.empty() ? now_utc() : provenance_.ended_utc);
   if (outcome_.status == RunStatus::failed) summary.set("reason", outcome_.reason);
   summary.set("measures", measures_.summary());
   try {

@@ -71,7 +71,8 @@ class Run {
   Provenance provenance_;
   Clock::time_point begun_ = Clock::now(), started_ = begun_, saved_ = begun_;
   RunCounts counts_;
-  double wall_before_ = 0;  // [s], of earlier parts of the run
+  double wall_before_ = 0;            // [s], of earlier parts of the run
+  std::optional<double> saved_time_;  // [s] simulated, of the last checkpoint
   std::int64_t geometry_ = 0, resumes_ = 0;
   RunOutcome outcome_;
   Schedule snapshot_due_, history_due_;

@@ -81,7 +81,6 @@ BuiltCase build_setup(const Case& c) {
   setup.numerics = built.resolved.numerics;
   if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
   setup.limits = built.resolved.limits;
-  for (const MeasureSpec& measure : c.measures) setup.fronts.push_back(front_setup(c, measure));
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
   return built;
 }

@@ -96,6 +96,11 @@ void SnapshotWriter::close() {
   rethrow();
 }
 
+void SnapshotWriter::describe(const VtkhdfWriter::Attributes& attributes) const {
+  particles_.describe(attributes);
+  if (walls_) walls_->describe(attributes);
+}
+
 void SnapshotWriter::stop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -60,6 +60,9 @@ class SnapshotWriter {
   // Waits until everything is on disk and ends the thread. Throws as write does.
   void close();
 
+  // Changes attributes of the files; with nothing queued. Throws Error that names the file.
+  void describe(const VtkhdfWriter::Attributes& attributes) const;
+
  private:
   SnapshotWriter(const std::string& folder, SnapshotSizes sizes);
   void work();

@@ -247,6 +247,25 @@ void VtkhdfWriter::create(const Attributes& attributes, std::size_t points_expec
   file.close();
 }
 
+void VtkhdfWriter::describe(const Attributes& attributes) const {
+  const hdf5::QuietErrors quiet;
+  Attributes changed;
+  {
+    const File file = File::open(path_, File::Access::read);
+    const auto present = read_texts(file, open_group(file, "/VTKHDF"));
+    for (const auto& text : attributes)
+      if (std::find(present.begin(), present.end(), text) == present.end()) changed.push_back(text);
+  }
+  if (changed.empty()) return;
+  reserve(path_, bytes_of_indices);
+  File file = File::open(path_, File::Access::change);
+  {
+    const Handle root = open_group(file, "/VTKHDF");
+    for (const auto& [name, value] : changed) write_text(file, root, name.c_str(), value);
+  }
+  file.close();
+}
+
 // The tables of data may go on behind the last step: appending writes over that.
 void VtkhdfWriter::truncate(std::int64_t steps) const {
   const hdf5::QuietErrors quiet;

@@ -68,6 +68,9 @@ class VtkhdfWriter {
   // Throws Error that names the file.
   void create(const Attributes& attributes, std::size_t points_expected) const;
 
+  // Changes attributes of an existing file, as far as they differ. Throws Error that names the file.
+  void describe(const Attributes& attributes) const;
+
   // Cuts an existing file off behind its first `steps` time steps. Throws Error that names the file: it
   // cannot be changed, or holds fewer.
   void truncate(std::int64_t steps) const;

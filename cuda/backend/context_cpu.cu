@@ -87,7 +87,7 @@ std::map<std::string, double> Context::timings() {
 void* Context::stream() const { return nullptr; }
 
 DeviceInfo device_info() {
-  DeviceInfo info{"cpu", "unknown processor", omp_get_max_threads()};
+  DeviceInfo info{"cpu", "unknown processor", omp_get_max_threads(), 0};
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
     if (line.rfind("model name", 0) == 0) {

@@ -123,7 +123,9 @@ DeviceInfo device_info() {
   cudaDeviceProp properties{};
   check(cudaGetDevice(&device), "no usable GPU");
   check(cudaGetDeviceProperties(&properties, device), "device properties");
-  return {"cuda", properties.name, 1};
+  std::size_t available = 0, all = 0;
+  check(cudaMemGetInfo(&available, &all), "device memory");
+  return {"cuda", properties.name, 1, static_cast<double>(available)};
 }
 
 void set_threads(int) {}

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "backend/error.hpp"
 #include "host/check.hpp"
+#include "tiny_case.hpp"
 
 namespace slagflow {
 namespace {
@@ -84,6 +86,20 @@ TEST(CaseCheck, PassesOnWarnings) {
   BuiltCase built = block();
   built.warnings = {"something odd"};
   EXPECT_THAT(to_text(check_case(built)), testing::HasSubstr("warning: something odd"));
+}
+
+TEST(Check, RefusesWhatNeedsMoreMemoryThanThereIs) {
+  const BuiltCase built = build_setup(parse_case(testing_tools::tiny_case(), "tiny.toml"));
+  EXPECT_NO_THROW(require_memory(built, 1e9));
+  try {
+    require_memory(built, 1e5);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::MatchesRegex(
+                                  "tiny.toml:4: key 'resolution.spacing': value 0.002 gives 125 fluid and "
+                                  "[0-9]+ wall particles, which need about 0.00 GB of memory, 0.00 GB are "
+                                  "available: allowed: .*"));
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "host/checkpoint_store.hpp"
 #include "host/hdf5_handles.hpp"
 #include "host/program.hpp"
+#include "host/provenance.hpp"
 #include "host/run.hpp"
 #include "host/vtkhdf.hpp"
 #include "program_process.hpp"
@@ -179,6 +180,67 @@ TEST_F(Resume, Sigusr1WritesACheckpointAndTheRunGoesOn) {
   EXPECT_GT(read_checkpoint(checkpoint).run.steps, 0);
   process.send(SIGTERM);
   EXPECT_EQ(process.wait(), 130);
+}
+
+// Killed at once, long before its first checkpoint is due.
+TEST_F(Resume, GoesOnFromACheckpointOfTheStart) {
+  run_here("unbroken");
+  std::vector<std::string> command = run_command("broken");
+  command.insert(command.end(), {"--set", "output.checkpoint_interval=1000"});
+  ProgramProcess process(command, folder_ / "said");
+  ASSERT_TRUE(wait_until([&] { return lines_of_history("broken") > 2; }));
+  process.send(SIGKILL);
+  ASSERT_EQ(process.wait(), 128 + SIGKILL) << said();
+  const RunRecord start = read_checkpoint(folder_ / "broken/checkpoint.h5").run;
+  EXPECT_EQ(start.steps, 0);
+  EXPECT_EQ(start.history_lines, 1);
+  EXPECT_EQ(start.snapshots, 1);
+  EXPECT_EQ(call(resume_command("broken")), 0) << said();
+  expect_same_results(folder_ / "broken", folder_ / "unbroken");
+}
+
+std::string attribute_of(const std::string& path, const char* name) {
+  const hdf5::File file = hdf5::File::open(path, hdf5::File::Access::read);
+  for (const auto& [key, value] : read_texts(file, open_group(file, "/VTKHDF")))
+    if (key == name) return value;
+  return "missing";
+}
+
+// The outputs of a run that was taken further carry the case that gives them.
+TEST_F(Resume, CaseInTheOutputsFollowsALaterEndTime) {
+  run_here("run", 0.0107);
+  for (const char* name : {"/particles.vtkhdf", "/walls.vtkhdf"}) {
+    EXPECT_THAT(attribute_of(folder_ / "run" + name, "case_text"), HasSubstr("end_time = 0.0107\n"));
+    EXPECT_THAT(attribute_of(folder_ / "run" + name, "ended_utc"), testing::EndsWith("Z"));
+  }
+  const std::string started = attribute_of(folder_ / "run/particles.vtkhdf", "started_utc");
+  resume_here("run", std::stod(end_time));
+  const std::string resolved = read_text_file(folder_ / "run/case.toml");
+  EXPECT_THAT(resolved, HasSubstr("end_time = 0.03\n"));
+  for (const char* name : {"/particles.vtkhdf", "/walls.vtkhdf"}) {
+    EXPECT_EQ(attribute_of(folder_ / "run" + name, "case_text"), resolved);
+    EXPECT_EQ(attribute_of(folder_ / "run" + name, "started_utc"), started);
+  }
+  EXPECT_EQ(read_checkpoint(folder_ / "run/checkpoint.h5").text("case_text"), resolved);
+  std::ofstream(folder_ / "repeated.toml") << attribute_of(folder_ / "run/particles.vtkhdf", "case_text");
+  RunOptions options;
+  options.folder = folder_ / "repeated", options.threads = 1, options.verbosity = Verbosity::quiet;
+  EXPECT_EQ(run_case(load_case(folder_ / "repeated.toml"), options).exit_code(), 0);
+  expect_same_results(folder_ / "run", folder_ / "repeated");
+}
+
+TEST_F(Resume, NamesBothProgramsWhereAnotherOneGoesOn) {
+  run_here("run", 0.002);
+  const CheckpointStore store(folder_ / "run");
+  Checkpoint older = store.read_newest().checkpoint;
+  for (auto& [key, value] : older.texts)
+    if (key == "commit") value = "0123456789ab";
+  store.write(older);
+  testing::internal::CaptureStderr();
+  resume_here("run", 0.004), resume_here("run", 0.006);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("may differ in their last digits"));
+  const std::string commit = attribute_of(folder_ / "run/particles.vtkhdf", "commit");
+  EXPECT_EQ(commit, "0123456789ab, resumed with " + build_provenance().commit);
 }
 
 TEST_F(Resume, TakesAFinishedRunFurther) {
