@@ -41,8 +41,8 @@ struct CaseCheck {
 // eta is the first parameter of a fluid's rheology (the plastic or the dynamic viscosity).
 CaseCheck check_case(const BuiltCase& built);
 
-// Throws InputError that says how much memory the case needs and how much there is, when it is more than that.
-// [bytes]
+// Throws InputError that says how much memory the case needs and how much there is, when it is more than
+// that. [bytes]
 void require_memory(const BuiltCase& built, double available);
 
 // For people.

@@ -1,6 +1,10 @@
 #include "host/hdf5_handles.hpp"
 
+#include <unistd.h>
+
 #include <array>
+#include <cerrno>
+#include <cstring>
 
 #include "backend/error.hpp"
 
@@ -37,6 +41,10 @@ Handle unlocked_access() {
   keep_library_out_of_exit();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
+  // Space ahead of need would be given back on closing: the file is cut first and its size noted after that,
+  // and a kill between the two leaves a file that nobody opens.
+  H5Pset_meta_block_size(access, 0);
+  H5Pset_small_data_block_size(access, 0);
   return access;
 }
 
@@ -111,6 +119,11 @@ File File::open(const std::string& path, Access access) {
   const unsigned flags = access == Access::change ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
   File file(Handle(H5Fopen(path.c_str(), flags, unlocked), H5Fclose), path);
   if (file.id() < 0) file.fail("open");
+  if (access == Access::change) {
+    void* descriptor = nullptr;
+    file.check(H5Fget_vfd_handle(file.id(), H5P_DEFAULT, &descriptor), "open");
+    file.on_disk_ = *static_cast<const int*>(descriptor);
+  }
   return file;
 }
 
@@ -128,7 +141,24 @@ void File::fail(const std::string& action) const {
   throw Error("cannot " + action + " " + path_ + ": " + reason_of_hdf5());
 }
 
-void File::flush() const { check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write to"); }
+// The superblock of version 0, which HDF5 writes unless it is asked for another, holds the end of the file in
+// the bytes from 40 on (HDF5 File Format Specification 3.0, II.A). HDF5 itself writes it last.
+void File::note_end() const {
+  constexpr off_t place = 40;
+  constexpr std::array<unsigned char, 9> beginning{0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n', 0};
+  std::array<unsigned char, 9> present{};
+  if (on_disk_ < 0 || ::pread(on_disk_, present.data(), present.size(), 0) < 0 || present != beginning)
+    return;
+  haddr_t end = 0;
+  check(H5Fget_eoa(file_, &end), "write to");
+  if (::pwrite(on_disk_, &end, sizeof end, place) != sizeof end)
+    throw Error("cannot write to " + path_ + ": " + std::strerror(errno));
+}
+
+void File::flush() const {
+  note_end();
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "write to");
+}
 
 void File::claim_all_bytes() const { check(H5Fincrement_filesize(file_, 0), "extend"); }
 
@@ -143,6 +173,7 @@ std::vector<std::byte> File::image(std::size_t spare) const {
 }
 
 void File::close() {
+  note_end();
   if (!file_.close()) fail("write to");
 }
 
@@ -257,11 +288,22 @@ hsize_t chunk_rows(const File& file, hid_t dataset) {
 
 void write_rows(const File& file, hid_t dataset, RowRange range, hid_t memory_type, const void* data) {
   std::array<hsize_t, 2> extent = shape(file, dataset);
+  if (extent[0] > range.first) {  // what a failed write has left cannot be changed, only dropped
+    extent[0] = range.first;
+    file.check(H5Dset_extent(dataset, extent.data()), "write to");
+  }
   extent[0] = range.first + range.count;
   file.check(H5Dset_extent(dataset, extent.data()), "write to");
   if (range.count == 0) return;
   const Selection s = select(file, dataset, range);
   file.check(H5Dwrite(dataset, memory_type, s.memory, s.file, H5P_DEFAULT, data), "write to");
+}
+
+void write_table(const File& file, const std::string& path, RowRange range, hid_t memory_type,
+                 const void* data) {
+  Handle dataset = open_dataset(file, path);
+  write_rows(file, dataset, range, memory_type, data);
+  if (!dataset.close()) file.fail("write to");
 }
 
 void read_rows(const File& file, hid_t dataset, RowRange range, hid_t memory_type, void* data) {

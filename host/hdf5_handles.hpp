@@ -73,6 +73,8 @@ class File {
     return result;
   }
 
+  // All that changed so far; also on closing. Where the file ends is noted in it before anything else, so
+  // that at no moment it refers to places beyond.
   void flush() const;
   // After a crash the file may refer to places beyond the end that it knows of, and would fill them a second
   // time: from now on it ends where it ends on disk.
@@ -83,9 +85,11 @@ class File {
 
  private:
   File(Handle file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
+  void note_end() const;
 
   Handle file_;
   std::string path_;
+  int on_disk_ = -1;  // HDF5's own descriptor of a file that may change
 };
 
 Handle create_group(const File& file, const std::string& path);
@@ -121,8 +125,12 @@ hsize_t chunk_rows(const File& file, hid_t dataset);
 struct RowRange {
   hsize_t first = 0, count = 0;
 };
-// Writes rows and makes the data set end after them, whatever it held beyond.
+// Writes rows and makes the data set end after them, whatever it held from there on.
 void write_rows(const File& file, hid_t dataset, RowRange range, hid_t memory_type, const void* data);
+// The same for a data set that is opened for it and closed again: only then are all bytes handed to the
+// system.
+void write_table(const File& file, const std::string& path, RowRange range, hid_t memory_type,
+                 const void* data);
 void read_rows(const File& file, hid_t dataset, RowRange range, hid_t memory_type, void* data);
 
 }  // namespace slagflow::hdf5

@@ -16,6 +16,35 @@ constexpr long after_every_line = 1000000000;
 // the stack.
 constexpr int deepest_nesting = 200, most_dots = 10000;
 
+// Bytes of the character of UTF-8 that begins here; 0 if there is none (Unicode standard, table 3-7).
+std::size_t length_of_character(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t k) {
+    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u;
+  };
+  const auto follows = [&](std::size_t k) { return byte(k) >= 0x80 && byte(k) <= 0xBF; };
+  const unsigned first = byte(0), second = byte(1);
+  if (first < 0x80) return 1;
+  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
+  if (first >= 0xE0 && first <= 0xEF) {
+    const bool overlong = first == 0xE0 && second < 0xA0, surrogate = first == 0xED && second > 0x9F;
+    return follows(1) && follows(2) && !overlong && !surrogate ? 3 : 0;
+  }
+  if (first < 0xF0 || first > 0xF4) return 0;
+  const bool overlong = first == 0xF0 && second < 0x90, beyond = first == 0xF4 && second > 0x8F;
+  return follows(1) && follows(2) && follows(3) && !overlong && !beyond ? 4 : 0;
+}
+
+// The parser reads beyond its text where that is not UTF-8.
+void check_encoding(const std::string& text, const std::string& name) {
+  int line = 1;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = length_of_character(text, at);
+    if (length == 0) throw InputError(name + ":" + std::to_string(line) + ": not TOML: not UTF-8");
+    if (text[at] == '\n') ++line;
+    at += length;
+  }
+}
+
 void check_nesting(const std::string& text, const std::string& name) {
   int depth = 0, line = 1, dots = 0;
   for (const char c : text) {
@@ -47,6 +76,7 @@ Toml parse_stream(const std::string& text, const std::string& name) {
 
 Toml parse_override_value(const std::string& text, const std::string& name) {
   try {
+    check_encoding(text, name);
     check_nesting(text, name);
     if (text.find('\n') == std::string::npos) return parse_stream("v = " + text, name).at("v");
   } catch (const InputError&) {
@@ -98,6 +128,7 @@ Toml& child(Toml& node, const std::string& part, const std::string& name) {
 }  // namespace
 
 Toml parse_toml(const std::string& text, const std::string& name) {
+  check_encoding(text, name);
   check_nesting(text, name);
   try {
     return parse_stream(text, name);

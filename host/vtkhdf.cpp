@@ -148,7 +148,7 @@ std::int64_t read_entry(const File& file, const std::string& path, std::int64_t 
 
 void write_entry(const File& file, const std::string& path, std::int64_t row,
                  const std::vector<std::int64_t>& values) {
-  write_rows(file, open_dataset(file, path), {static_cast<hsize_t>(row), 1}, H5T_NATIVE_INT64, values.data());
+  write_table(file, path, {static_cast<hsize_t>(row), 1}, H5T_NATIVE_INT64, values.data());
 }
 
 // First row behind what the steps so far hold, at the start of a chunk.
@@ -167,17 +167,25 @@ std::vector<std::int64_t> numbers(std::int64_t first, hsize_t count) {
   return values;
 }
 
+// Of all steps so far.
+hsize_t most_points(const File& file, std::int64_t steps) {
+  std::vector<std::int64_t> points(static_cast<std::size_t>(steps));
+  read_rows(file, open_dataset(file, "/VTKHDF/NumberOfPoints"), {0, points.size()}, H5T_NATIVE_INT64,
+            points.data());
+  return points.empty() ? 0 : static_cast<hsize_t>(*std::max_element(points.begin(), points.end()));
+}
+
 // Returns the row of the first point.
 std::int64_t write_points(const File& file, std::int64_t steps, const std::vector<Vector3<float>>& position) {
   const std::int64_t first = next_row(file, steps, point_offsets, "/VTKHDF/Points");
   const hsize_t count = position.size();
-  write_rows(file, open_dataset(file, "/VTKHDF/Points"), {static_cast<hsize_t>(first), count},
-             H5T_NATIVE_FLOAT, position.data());
-  const Handle connectivity = open_dataset(file, "/VTKHDF/Vertices/Connectivity");
-  const hsize_t present = rows(file, connectivity);
+  write_table(file, "/VTKHDF/Points", {static_cast<hsize_t>(first), count}, H5T_NATIVE_FLOAT,
+              position.data());
+  const hsize_t present = most_points(file, steps);  // there may be more rows, of a step that failed
   if (count > present) {
     const auto added = numbers(static_cast<std::int64_t>(present), count - present);
-    write_rows(file, connectivity, {present, added.size()}, H5T_NATIVE_INT64, added.data());
+    write_table(file, "/VTKHDF/Vertices/Connectivity", {present, added.size()}, H5T_NATIVE_INT64,
+                added.data());
   }
   return first;
 }
@@ -187,16 +195,16 @@ std::int64_t write_points(const File& file, std::int64_t steps, const std::vecto
 // of them, later ones only until their cells add up to CellOffsets. A CellOffsets beyond that sum makes the
 // two agree even after a step without particles, so two rows more than there are vertices lie in a step.
 std::int64_t write_vertices(const File& file, std::int64_t steps, hsize_t count) {
-  const Handle table = open_dataset(file, "/VTKHDF/Vertices/Offsets");
+  const std::string path = "/VTKHDF/Vertices/Offsets";
   std::int64_t row = 0;
   if (steps > 0) {
     const std::int64_t last = steps - 1;
-    const auto chunk = static_cast<std::int64_t>(chunk_rows(file, table));
+    const auto chunk = static_cast<std::int64_t>(chunk_rows(file, open_dataset(file, path)));
     row = read_entry(file, cell_offsets, last) + last + read_entry(file, "/VTKHDF/NumberOfPoints", last) + 2;
     row = (row + chunk - 1) / chunk * chunk;
   }
   const auto values = numbers(0, count + 1);
-  write_rows(file, table, {static_cast<hsize_t>(row), values.size()}, H5T_NATIVE_INT64, values.data());
+  write_table(file, path, {static_cast<hsize_t>(row), values.size()}, H5T_NATIVE_INT64, values.data());
   return row - steps;
 }
 
@@ -218,7 +226,7 @@ void write_step_entries(const File& file, std::int64_t step, std::int64_t points
 void write_step_count(const File& file, std::int64_t step, std::int64_t points, double time) {
   write_entry(file, "/VTKHDF/NumberOfPoints", step, {points});
   write_integers(file, open_group(file, "/VTKHDF/Steps"), "NSteps", {step + 1});
-  write_rows(file, open_dataset(file, times), {static_cast<hsize_t>(step), 1}, H5T_NATIVE_DOUBLE, &time);
+  write_table(file, times, {static_cast<hsize_t>(step), 1}, H5T_NATIVE_DOUBLE, &time);
 }
 
 }  // namespace
@@ -269,6 +277,7 @@ void VtkhdfWriter::describe(const Attributes& attributes) const {
 // The tables of data may go on behind the last step: appending writes over that.
 void VtkhdfWriter::truncate(std::int64_t steps) const {
   const hdf5::QuietErrors quiet;
+  reserve(path_, bytes_of_indices);  // also for a file that a kill has left shorter than it says
   File file = File::open(path_, File::Access::change);
   file.claim_all_bytes();
   const std::int64_t present = vtkhdf_steps(file);
@@ -276,9 +285,12 @@ void VtkhdfWriter::truncate(std::int64_t steps) const {
     throw Error(path_ + ": holds " + std::to_string(present) + " time steps where the checkpoint knows of " +
                 std::to_string(steps));
   const RowRange end{static_cast<hsize_t>(steps), 0};
+  // In an order that leaves each step readable that is still counted: see write_step_count.
+  write_table(file, times, end, H5T_NATIVE_DOUBLE, nullptr);
+  file.flush();
   write_integers(file, open_group(file, "/VTKHDF/Steps"), "NSteps", {steps});
-  write_rows(file, open_dataset(file, times), end, H5T_NATIVE_DOUBLE, nullptr);
-  write_rows(file, open_dataset(file, "/VTKHDF/NumberOfPoints"), end, H5T_NATIVE_INT64, nullptr);
+  file.flush();
+  write_table(file, "/VTKHDF/NumberOfPoints", end, H5T_NATIVE_INT64, nullptr);
   file.close();
 }
 
@@ -308,8 +320,8 @@ VtkhdfWriter::FirstRows VtkhdfWriter::write_bulk(const PointStep& step, Points p
   for (std::size_t k = 0; k < arrays_.size(); ++k) {
     const std::string table = "/VTKHDF/PointData/" + arrays_[k].name;
     const std::int64_t row = next_row(file, first.step, data_offsets(arrays_[k]), table);
-    write_rows(file, open_dataset(file, table), {static_cast<hsize_t>(row), step.position.size()},
-               hdf5_type(arrays_[k].type), step.arrays[k].data);
+    write_table(file, table, {static_cast<hsize_t>(row), step.position.size()}, hdf5_type(arrays_[k].type),
+                step.arrays[k].data);
     first.data.push_back(row);
   }
   file.close();

@@ -17,8 +17,9 @@ namespace slagflow::testing_tools {
 class ProgramProcess {
  public:
   // What it says goes to the file `output`.
-  ProgramProcess(std::vector<std::string> arguments, const std::string& output) {
-    arguments.insert(arguments.begin(), SLAGFLOW_PROGRAM);
+  ProgramProcess(std::vector<std::string> arguments, const std::string& output,
+                 const std::string& program = SLAGFLOW_PROGRAM) {
+    arguments.insert(arguments.begin(), program);
     std::vector<char*> argv;
     for (std::string& a : arguments) argv.push_back(a.data());
     argv.push_back(nullptr);
@@ -26,7 +27,7 @@ class ProgramProcess {
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, 1, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
     posix_spawn_file_actions_adddup2(&files, 1, 2);
-    if (posix_spawn(&id_, SLAGFLOW_PROGRAM, &files, nullptr, argv.data(), environ) != 0) id_ = -1;
+    if (posix_spawn(&id_, program.c_str(), &files, nullptr, argv.data(), environ) != 0) id_ = -1;
     posix_spawn_file_actions_destroy(&files);
   }
   ~ProgramProcess() {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -241,9 +242,39 @@ const std::vector<Wrong> wrong_cases{
     {4,
      "spacing = 1e-3\ndimensions = 2\n[body_force]\nacceleration = [0, 1, 0]",
      {"case.toml:7: key 'body_force.acceleration': y component 1.0 with two dimensions"}},
+    // Limits
+    {22, "[limits]\ninterval = 0", {"case.toml:23: key 'limits.interval'", "an integer from 1 to 1000"}},
+    {22, "[limits]\nmax_speed = 0", {"case.toml:23: key 'limits.max_speed'", "or \"auto\""}},
+    {22, "[limits]\nmax_speed = 'none'", {"value \"none\" has the wrong type"}},
+    {22, "[limits]\nmax_compression = 1.5", {"case.toml:23", "allowed: a number > 0.0 and <= 1.0"}},
+    {22, "[limits]\nmax_lost_fraction = -0.1", {"key 'limits.max_lost_fraction': value -0.1"}},
+    {22, "[limits]\nmin_time_step_ratio = 2", {"key 'limits.min_time_step_ratio': value 2 is"}},
+    {22, "[limits]\nmax_energy_growth = 0", {"key 'limits.max_energy_growth': value 0 is"}},
+    {22, "[limits]\nmax_sped = 1", {"key 'limits.max_sped': unknown: did you mean 'max_speed'?"}},
+    // Paths: what becomes a name of a file must not lead elsewhere
+    {2, "name = 'a/b'", {"case.toml:2: key 'case.name': value \"a/b\" is not a name"}},
+    {2, "name = '/etc/passwd'", {"value \"/etc/passwd\" is not a name"}},
+    {2, "name = '.hidden'", {"value \".hidden\" is not a name"}},
+    {2, "name = '-rf'", {"value \"-rf\" is not a name"}},
+    {2, "name = \"a\\u0000b\"", {"case.toml:2"}},
+    {2, "name = '" + std::string(101, 'a') + "'", {"is not a name: allowed: up to 100"}},
+    {16, "name = '../wall'", {"case.toml:16: key 'wall.0.name': value \"../wall\" is not a name"}},
+    {26, "name = 'a/../../b'", {"case.toml:26: key 'measure.0.name': value \"a/../../b\" is not a name"}},
+    {7, "[fluid.'../x']", {"key 'fluid.../x': the name of a fluid"}},
+    {17, "shapes = [{shape='stl', file='.'}]", {"case.toml:17", "is not a file that can be read"}},
+    {17, "shapes = [{shape='stl', file='/dev/zero'}]", {"case.toml:17", "is not a file that can be read"}},
 };
 
 TEST(CaseErrors, TheUnchangedCaseIsAccepted) { EXPECT_EQ(message_of(text_with(0, "")), "accepted"); }
+
+TEST(CaseErrors, AtLeastSixtyMistakesHaveMessagesOfTheirOwn) {
+  std::set<std::string> messages;
+  for (const Wrong& wrong : wrong_cases)
+    messages.insert(message_of(text_with(wrong.line, wrong.replacement)));
+  EXPECT_EQ(messages.count("accepted"), 0U);
+  EXPECT_GE(messages.size(), 60U);
+  EXPECT_EQ(messages.size(), wrong_cases.size()) << "two rows of the table are the same mistake";
+}
 
 TEST(CaseErrors, EachMistakeIsNamedWithItsPlace) {
   for (const Wrong& wrong : wrong_cases) {

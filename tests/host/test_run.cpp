@@ -173,6 +173,24 @@ TEST(Run, InterruptEndsItWithItsFilesClosed) {
   EXPECT_THAT(describe_file(folder / "run/particles.vtkhdf"), HasSubstr("time steps: "));
 }
 
+TEST(Run, FolderThatVanishesIsAFailureThatNamesAFileInIt) {
+  const TempFolder folder;
+  std::thread other([&] {
+    for (int k = 0; k < 6000 && lines_of(folder / "run/history.csv").size() <= 2; ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::error_code in_use;  // while the run makes files in it
+    for (int k = 0; k < 6000 && std::filesystem::exists(folder / "run"); ++k)
+      std::filesystem::remove_all(folder / "run", in_use);
+  });
+  testing::internal::CaptureStderr();
+  const RunOutcome outcome = run_text(tiny_case("1000"), into(folder));
+  other.join();
+  EXPECT_EQ(outcome.exit_code(), 1);
+  EXPECT_THAT(outcome.reason,
+              testing::ContainsRegex("run/(particles|walls).vtkhdf: No such file or directory"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("error: " + outcome.reason));
+}
+
 TEST(InterruptGuard, LeavesTheSecondSignalToTheSystem) {
   struct sigaction before {
   }, now{};
