@@ -1,5 +1,7 @@
 // Saves and restores a simulation to the bit.
+#include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "backend/error.hpp"
 #include "simulation_state.hpp"
@@ -78,6 +80,32 @@ void visit_arrays(Visitor& v, FluidArrays& f, WallArrays& w, Buffer<Quad>& list_
   v.values("departed", departed), v.values("planes", planes);
 }
 
+// What indices into other arrays are made of, and what the loop over the steps counts on. Anything else that
+// is false in a checkpoint shows as a state that cannot go on.
+void require_possible(const SavedNumbers& v) {
+  const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
+                        std::isfinite(v.displacement) && std::isfinite(v.dissipated) && v.steps >= 0 &&
+                        v.builds >= 0 && v.solver_steps >= 0;
+  if (!possible) throw Error("checkpoint: its numbers are not those of a run");
+}
+
+void require_possible(const FluidArrays& fluid, const Buffer<Quad>& list_places, const CellGrid& grid,
+                      std::size_t kinds) {
+  std::vector<std::uint8_t> kind;
+  std::vector<Index> id;
+  std::vector<Quad> place;
+  fluid.fluid.download(kind), fluid.id.download(id), list_places.download(place);
+  std::pair<Index, Index> before{0, -1};
+  for (std::size_t k = 0; k < id.size(); ++k) {
+    if (kind[k] >= kinds)
+      throw Error("checkpoint: particle " + std::to_string(id[k]) + " is of fluid " +
+                  std::to_string(kind[k]) + ", the case has " + std::to_string(kinds));
+    const std::pair<Index, Index> key{grid.cell_of(xyz(place[k])), id[k]};
+    if (key <= before || id[k] < 0) throw Error("checkpoint: its particles are not in order");
+    before = key;
+  }
+}
+
 }  // namespace
 
 SavedState Simulation::save() const {
@@ -114,6 +142,8 @@ void Simulation::restore(const SavedState& saved) {
   if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
   s.fluid.count = static_cast<Index>(n);
   const SavedNumbers& v = numbers[0];
+  require_possible(v);
+  require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, kinds);
   s.time = v.time, s.dt = v.dt, s.displacement = v.displacement, s.dissipated = v.dissipated;
   s.steps = v.steps, s.builds = v.builds;
   s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_unconverged};

@@ -72,6 +72,9 @@ RunRecord record_of(const SavedState& arrays, const std::string& path) {
   };
   for (const auto& [name, member] : reals) take(name, &(run.*member));
   for (const auto& [name, member] : wholes) take(name, &(run.*member));
+  for (const std::int64_t count : {run.steps, run.particles_now, run.particle_steps, run.history_lines,
+                                   run.history_bytes, run.snapshots, run.resumes})
+    if (count < 0) throw Error(path + ": a count of the run is negative");
   const auto take_all = [&](const char* name, auto& values) {
     const SavedArray& array = find(arrays, name, path);
     values.resize(array.bytes.size() / sizeof(values[0]));

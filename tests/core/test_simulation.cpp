@@ -222,6 +222,25 @@ TEST(Simulation, RestoreRefusesAStateOfAnotherCase) {
   EXPECT_THAT(error_of([&] { one.restore(part); }), HasSubstr("missing"));
 }
 
+// Each would otherwise be taken as an index, or keep a run from ending.
+TEST(Simulation, RestoreRefusesWhatNoRunCanHave) {
+  Simulation simulation(dam());
+  advance(simulation, 3);
+  const SavedState sound = simulation.save();
+  const auto error_with = [&](const char* name, std::size_t byte, int value) {
+    SavedState state = sound;
+    for (SavedArray& array : state)
+      if (array.name == name) array.bytes.at(byte) = static_cast<std::byte>(value);
+    return error_of([&] { simulation.restore(state); });
+  };
+  EXPECT_THAT(error_with("fluid", 5, 2), HasSubstr("is of fluid 2, the case has 2"));
+  EXPECT_THAT(error_with("id", 7, 0xff), HasSubstr("not in order"));
+  EXPECT_THAT(error_with("list_places", 3, 0x7f), HasSubstr("not in order"));
+  EXPECT_THAT(error_with("numbers", 7, 0xff), HasSubstr("not those of a run"));   // time
+  EXPECT_THAT(error_with("numbers", 15, 0xff), HasSubstr("not those of a run"));  // time step
+  EXPECT_EQ(error_with("fluid", 5, static_cast<int>(sound[5].bytes[5])), "no error");
+}
+
 TEST(Simulation, NotANumberNamesTheParticle) {
   for (std::size_t bad : {std::size_t(0), std::size_t(57), std::size_t(293)}) {
     SimulationSetup setup = dam();
