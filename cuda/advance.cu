@@ -30,6 +30,13 @@ struct SpeedSquared {
   HOST_DEVICE void operator()(Index i) const { result[i] = dot(xyz(motion[i]), xyz(motion[i])); }
 };
 
+// eta V / m
+struct Diffusivity {
+  Span<const Quad> state;
+  Span<Real> value;
+  HOST_DEVICE void operator()(Index i) const { value[i] = state[i].y * state[i].z / state[i].w; }
+};
+
 }  // namespace
 
 double advance_particles(Context& context, FluidArrays& f, Span<const Quad> velocity,
@@ -45,6 +52,12 @@ double largest_speed(Context& context, const FluidArrays& f, Buffer<Real>& scrat
   scratch.resize(f.count);
   launch(context, "speed", f.count, SpeedSquared{f.motion.span(), scratch.span()});
   return std::sqrt(maximum(context, scratch.span(), 0));
+}
+
+double largest_diffusivity(Context& context, const FluidArrays& f, Buffer<Real>& scratch) {
+  scratch.resize(f.count);
+  launch(context, "diffusivity", f.count, Diffusivity{f.state.span(), scratch.span()});
+  return maximum(context, scratch.span(), 0);
 }
 
 }  // namespace slagflow

@@ -14,4 +14,7 @@ double advance_particles(Context&, FluidArrays&, Span<const Quad> velocity, cons
 // Largest speed [m/s].
 double largest_speed(Context&, const FluidArrays&, Buffer<Real>& scratch);
 
+// Largest dynamic viscosity over density of any particle [m^2/s]; `scratch` holds one number per particle.
+double largest_diffusivity(Context&, const FluidArrays&, Buffer<Real>& scratch);
+
 }  // namespace slagflow

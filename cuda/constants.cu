@@ -2,6 +2,7 @@
 
 #include "backend/error.hpp"
 #include "constants.hpp"
+#include "lattice_viscosity.hpp"
 #include "smoothing/lucy.hpp"
 
 namespace slagflow {
@@ -59,7 +60,7 @@ FlowConstants flow_constants(const SimulationSetup& s) {
   flow.tension_limit = static_cast<Real>(s.numerics.tension_limit);
   flow.anti_pairing = static_cast<Real>(s.numerics.anti_pairing);
   flow.pairing_reference = 1 / smoothing.value(flow.spacing);
-  const double correction = s.numerics.viscosity_correction;
+  const double correction = viscosity_correction(s);
   const bool radial = s.numerics.viscous_operator == ViscousOperator::radial;
   flow.coupling = radial ? PairCoupling::radial : PairCoupling::isotropic;
   flow.operator_factor = static_cast<Real>((radial ? 2 * (s.dimensions + 2) : 2) * correction);
@@ -90,6 +91,11 @@ PeriodicBox periodic_box(const SimulationSetup& s) {
       box.inverse[k] = static_cast<Real>(1 / extent);
     }
   return box;
+}
+
+double viscosity_correction(const SimulationSetup& s) {
+  if (s.numerics.viscosity_correction > 0) return s.numerics.viscosity_correction;
+  return 1 / lattice_viscosity(s.numerics.viscous_operator, s.support_ratio, s.dimensions);
 }
 
 double acoustic_time_step(const SimulationSetup& s) {

@@ -18,6 +18,9 @@ double particle_mass(const SimulationSetup&, std::size_t kind);
 
 PeriodicBox periodic_box(const SimulationSetup&);
 
+// C of equation (7): as given, or what takes out the bias of the operator, 1 / lattice_viscosity().
+double viscosity_correction(const SimulationSetup&);
+
 // dt <= courant (h/2)/c0, and max_time_step when there is one [s].
 double acoustic_time_step(const SimulationSetup&);
 

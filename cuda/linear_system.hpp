@@ -78,8 +78,8 @@ struct RelaxationRow {
   }
 };
 
-// Rows in the order of cells, for solvers that need independent sets of rows: rows of two cells that do not
-// touch are not linked.
+// Rows in the order of cells, for solvers that need independent sets of rows or groups of neighbours: rows of
+// two cells that do not touch are not linked.
 struct RowCells {
   CellGrid grid;
   Span<const Index> cell_start;
@@ -87,6 +87,7 @@ struct RowCells {
 
 struct SolveLimits {
   double residual = 0;  // stop when ||b - A u|| is at most this [kg m/s]
+  double energy = 0;    // or when an upper bound of the error's r.A^-1 r is at most this [kg m^2/s^2]
   int max_iterations = 200;
   double relaxation = 1.2;  // of SOR
   double start_residual =

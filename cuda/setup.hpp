@@ -68,25 +68,30 @@ struct DomainSetup {
 // laplacian: div(eta grad v), as the paper's equation (2) is usually discretised; resists rigid rotation.
 enum class ViscousOperator { radial, laplacian };
 
+// explicit_step: v = u* - dt K v / m, with the time step of equation (5); implicit_step: equation (7).
+enum class ViscousStepping { implicit_step, explicit_step };
+
 // On what the explicit part of Crank-Nicolson acts: the old velocity, or u* as equation (7) is printed, which
 // puts an error f dt/2 into the steady state.
 enum class ExplicitPart { old_velocity, predicted };
 
-enum class ViscousSolver { conjugate_gradient, sor, jacobi };
+enum class ViscousSolver { multigrid, conjugate_gradient, sor, jacobi };
 
 struct NumericsSetup {
-  double sound_speed = 0;              // [m/s]
-  double courant = 0.5;                // dt <= courant (h/2) / sound_speed
-  double max_time_step = 0;            // [s], 0: no further limit
-  double density_diffusion = 0.1;      // delta of Fourtakas et al. 2019
-  double tension_limit = 0;            // [Pa] >= 0, pressure is cut off at -tension_limit
-  double anti_pairing = 0.1;           // epsilon of the term that keeps pairs apart
-  double viscosity_correction = 1.05;  // takes out the operator's lattice bias
+  double sound_speed = 0;           // [m/s]
+  double courant = 0.5;             // dt <= courant (h/2) / sound_speed
+  double max_time_step = 0;         // [s], 0: no further limit
+  double density_diffusion = 0.1;   // delta of Fourtakas et al. 2019
+  double tension_limit = 0;         // [Pa] >= 0, pressure is cut off at -tension_limit
+  double anti_pairing = 0.1;        // epsilon of the term that keeps pairs apart
+  double viscosity_correction = 0;  // 0: from the kernel and the lattice (lattice_viscosity.hpp)
+  ViscousStepping viscous_step = ViscousStepping::implicit_step;
+  double diffusion_number = 0.1;  // d_i of equation (5), of the explicit step
   ViscousOperator viscous_operator = ViscousOperator::radial;
   ExplicitPart explicit_part = ExplicitPart::old_velocity;
   double theta = 1;    // 1 backward Euler, 0.5 Crank-Nicolson
   double skin = 0.12;  // of the neighbour list, in support radii
-  ViscousSolver solver = ViscousSolver::conjugate_gradient;
+  ViscousSolver solver = ViscousSolver::multigrid;
   double tolerance = 1e-2;  // rms velocity error of the solve, in gravity kicks g dt
   int max_iterations = 200;
   double relaxation = 1.2;  // omega of SOR

@@ -64,7 +64,7 @@ Simulation::State::State(const SimulationSetup& s)
   departed.resize(s.fluids.size());
   upload_fluid();
   upload_walls();
-  dt = acoustic_time_step(setup);
+  dt = full_dt = acoustic_time_step(setup);
   planes.begin(context, fluid, diagnostics);
   list_places.copy_from(fluid.place);
   rebuild();
@@ -183,7 +183,16 @@ double Simulation::State::kick() {
   return g > 0 ? g * dt : 1e-4 * larger(wall_speed, largest_speed(context, fluid, scratch));
 }
 
-void Simulation::State::solve() {
+// The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5).
+void Simulation::State::choose_time_step() {
+  dt = full_dt;
+  if (setup.numerics.viscous_step != ViscousStepping::explicit_step) return;
+  const double diffusivity = largest_diffusivity(context, fluid, scratch);
+  if (diffusivity > 0)
+    dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
+}
+
+SolveResult Simulation::State::try_solve() {
   double lightest = 1e300;
   for (const auto& f : fluid_constants(setup)) lightest = smaller(lightest, static_cast<double>(f.mass));
   const auto sources = ordering.fluid_sources(fluid);
@@ -193,19 +202,35 @@ void Simulation::State::solve() {
   report.residual = result.right_hand_side > 0 ? result.residual / result.right_hand_side : 0;
   report.velocity_error = result.residual / (lightest * std::sqrt(static_cast<double>(fluid.count)));
   report.converged = result.converged;
-  solver.steps += 1;
   solver.iterations += result.iterations;
   solver.max_iterations = larger(solver.max_iterations, result.iterations);
-  solver.worst_residual = larger(solver.worst_residual, report.residual);
   if (!std::isfinite(result.residual)) check_finite();
-  if (!result.converged) {
-    std::ostringstream message;
-    message << "the viscous solve did not converge in step " << steps + 1 << " at " << time << " s: residual "
-            << report.residual << " after " << result.iterations
-            << " iterations; try more numerics.max_iterations, solver \"conjugate_gradient\" or a smaller "
-               "courant";
-    throw Error(message.str());
+  return result;
+}
+
+// A solve that does not converge is tried again with half the time step, and from a first guess of nothing.
+void Simulation::State::solve() {
+  constexpr int most_halvings = 4;
+  SolveResult result = try_solve();
+  for (int halving = 0; !result.converged; ++halving) {
+    if (halving == most_halvings) give_up(result);
+    ++solver.retried;
+    dt /= 2;
+    density_ahead += dt;
+    viscous.forget(fluid.increment);
+    result = try_solve();
   }
+  solver.steps += 1;
+  solver.worst_residual = larger(solver.worst_residual, report.residual);
+}
+
+void Simulation::State::give_up(const SolveResult& result) {
+  std::ostringstream message;
+  message << "the viscous solve did not converge in step " << steps + 1 << " at " << time
+          << " s, nor with a time step down to " << dt << " s: residual " << report.residual << " after "
+          << result.iterations
+          << " iterations; try more numerics.max_iterations, solver \"multigrid\" or a smaller courant";
+  throw Error(message.str());
 }
 
 void Simulation::State::look() {
@@ -251,13 +276,15 @@ void Simulation::step() {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
     const double speed = largest_speed(s.context, s.fluid, s.scratch);
-    s.dt = smaller(acoustic_time_step(s.setup),
-                   0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
+    s.full_dt = smaller(acoustic_time_step(s.setup),
+                        0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
+  s.choose_time_step();
   if (s.fluid.count > 0) {
     {
       Section timer(s.context, "density and shear rate");
-      update_density(s.context, s.pairs(), s.fluid, s.scratch, static_cast<Real>(s.dt));
+      update_density(s.context, s.pairs(), s.fluid, s.scratch, static_cast<Real>(s.dt - s.density_ahead));
+      s.density_ahead = 0;
     }
     {
       Section timer(s.context, "wall pressure");

@@ -90,7 +90,7 @@ struct SolverTotals {
   std::int64_t steps = 0, iterations = 0;
   int max_iterations = 0;
   double worst_residual = 0;
-  std::int64_t unconverged = 0;  // steps that ended at the iteration limit
+  std::int64_t retried = 0;  // solves that did not converge and were repeated with half the time step
 };
 
 class Simulation {

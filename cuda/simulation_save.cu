@@ -12,9 +12,9 @@ namespace {
 
 // Numbers that are not particle arrays.
 struct SavedNumbers {
-  double time, dt, displacement, dissipated;
+  double time, dt, full_dt, density_ahead, displacement, dissipated;
   std::int64_t steps, builds;
-  std::int64_t solver_steps, solver_iterations, solver_unconverged;
+  std::int64_t solver_steps, solver_iterations, solver_retried;
   double worst_residual, residual, velocity_error, lowest_energy;
   std::int32_t max_iterations, iterations, converged, real_size;
 };
@@ -84,6 +84,7 @@ void visit_arrays(Visitor& v, FluidArrays& f, WallArrays& w, Buffer<Quad>& list_
 // is false in a checkpoint shows as a state that cannot go on.
 void require_possible(const SavedNumbers& v) {
   const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
+                        v.full_dt > 0 && std::isfinite(v.full_dt) && std::isfinite(v.density_ahead) &&
                         std::isfinite(v.displacement) && std::isfinite(v.dissipated) && v.steps >= 0 &&
                         v.builds >= 0 && v.solver_steps >= 0;
   if (!possible) throw Error("checkpoint: its numbers are not those of a run");
@@ -113,8 +114,8 @@ SavedState Simulation::save() const {
   SavedState result;
   Saver saver(result);
   visit_arrays(saver, s.fluid, s.wall, s.list_places, s.departed, s.planes.records);
-  std::vector<SavedNumbers> numbers{{s.time, s.dt, s.displacement, s.dissipated, s.steps, s.builds,
-                                     s.solver.steps, s.solver.iterations, s.solver.unconverged,
+  std::vector<SavedNumbers> numbers{{s.time, s.dt, s.full_dt, s.density_ahead, s.displacement, s.dissipated,
+                                     s.steps, s.builds, s.solver.steps, s.solver.iterations, s.solver.retried,
                                      s.solver.worst_residual, s.report.residual, s.report.velocity_error,
                                      s.watch.lowest_energy, s.solver.max_iterations, s.report.iterations,
                                      s.report.converged ? 1 : 0, static_cast<std::int32_t>(sizeof(Real))}};
@@ -144,9 +145,10 @@ void Simulation::restore(const SavedState& saved) {
   const SavedNumbers& v = numbers[0];
   require_possible(v);
   require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, kinds);
-  s.time = v.time, s.dt = v.dt, s.displacement = v.displacement, s.dissipated = v.dissipated;
+  s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.density_ahead = v.density_ahead,
+  s.displacement = v.displacement, s.dissipated = v.dissipated;
   s.steps = v.steps, s.builds = v.builds;
-  s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_unconverged};
+  s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
   s.watch.lowest_energy = v.lowest_energy;
   s.rebuild_lists_as_saved();

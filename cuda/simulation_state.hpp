@@ -35,7 +35,8 @@ struct Simulation::State {
   Watch watch;
   PlaneCounters planes;
 
-  double time = 0, dt = 0, displacement = 0, dissipated = 0;
+  double density_ahead = 0;  // [s] by which the density is ahead of the particles, after a step made shorter
+  double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0;
   std::int64_t steps = 0, builds = 0;
   double start_mass = 0;
   double wall_speed = 0;  // largest [m/s]
@@ -51,7 +52,10 @@ struct Simulation::State {
   bool lists_hold();
   PairContext pairs() const;
   double kick();
+  void choose_time_step();
+  SolveResult try_solve();
   void solve();
+  [[noreturn]] void give_up(const SolveResult&);
   void look();
   void check_finite();
   void check_departure() const;

@@ -47,6 +47,24 @@ struct SquaredLength {
   }
 };
 
+// delta = -dt K v / m with A = m + dt K, v the old velocity; the walls' share is in b - m u*.
+struct ExplicitStep {
+  LinearSystem system;
+  Span<const Quad> predicted, velocity;
+  Span<Quad> increment;
+  HOST_DEVICE void operator()(Index i) const {
+    const Real mass = system.diagonal[i].w;
+    const Vec3 drag = xyz(system.right_hand_side[i]) - mass * xyz(predicted[i]);
+    const Vec3 viscous = system.apply(i, velocity) - mass * xyz(velocity[i]) - drag;
+    increment[i] = quad((-1 / mass) * viscous, 0);
+  }
+};
+
+struct Forget {
+  Span<Quad> increment;
+  HOST_DEVICE void operator()(Index i) const { increment[i] = {}; }
+};
+
 // b -= (1 - theta)/theta [theta dt K v - wall part], v the old velocity or u*; theta dt K v = A v - m v.
 struct ExplicitHalf {
   LinearSystem system;
@@ -72,7 +90,8 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       right_hand_side_(c, "right hand side"),
       wall_(c, "wall blocks"),
       weight_(c, "link weights"),
-      work_(c) {}
+      work_(c),
+      multigrid_(c) {}
 
 void ViscousStep::resize(Index count, Offset pair_capacity) {
   constexpr Offset margin_percent = 1;
@@ -90,7 +109,8 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
                                  Offset pair_capacity, FluidArrays& fluid) {
   const Index n = fluid.count;
   resize(n, pair_capacity);
-  const auto theta = static_cast<Real>(numerics_.theta);
+  const bool is_explicit = numerics_.viscous_step == ViscousStepping::explicit_step;
+  const auto theta = static_cast<Real>(is_explicit ? 1 : numerics_.theta);
   {
     Section timer(context_, "predictor and assembly");
     const PredictorOutput out{predicted_.span(), weight_.span(), diagonal_.span(), wall_.span(),
@@ -105,7 +125,13 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
     launch(context_, "explicit half", n,
            ExplicitHalf{matrix, predicted_.span(), explicit_velocity, (1 - theta) / theta,
                         right_hand_side_.span()});
-  SolveResult result = solve_for_increment(matrix, rows, step, fluid.increment);
+  SolveResult result;
+  result.converged = true;
+  if (is_explicit)
+    launch(context_, "explicit step", n,
+           ExplicitStep{matrix, predicted_.span(), fluid.motion.span(), fluid.increment.span()});
+  else
+    result = solve_for_increment(matrix, rows, step, fluid.increment);
   launch(context_, "add increment", n,
          AddIncrement{predicted_.span(), fluid.increment.span(), velocity_.span()});
   return result;
@@ -126,11 +152,16 @@ SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const R
   const double rounding = larger(static_cast<double>(std::numeric_limits<Real>::epsilon()) *
                                      norm_of(increment.span(), Weighted::by_diagonal),
                                  8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * start);
-  SolveResult result =
-      solve(matrix, rows, {larger(wanted, rounding), numerics_.max_iterations, numerics_.relaxation, start},
-            increment);
+  SolveResult result = solve(matrix, rows,
+                             {larger(wanted, rounding), wanted * wanted / step.mass, numerics_.max_iterations,
+                              numerics_.relaxation, start},
+                             increment);
   result.right_hand_side = b;
   return result;
+}
+
+void ViscousStep::forget(Buffer<Quad>& increment) {
+  launch(context_, "forget", static_cast<Index>(increment.size()), Forget{increment.span()});
 }
 
 double ViscousStep::norm_of(Span<const Quad> v, Weighted weighted) {
@@ -149,9 +180,17 @@ SolveResult ViscousStep::solve(const LinearSystem& matrix, const RowCells& rows,
     case ViscousSolver::sor:
       return sor(context_, matrix, rows, limits, increment, work_);
     case ViscousSolver::conjugate_gradient:
+      return conjugate_gradient(context_, matrix, limits, increment, work_);
+    case ViscousSolver::multigrid:
       break;
   }
-  return conjugate_gradient(context_, matrix, limits, increment, work_);
+  // The diagonal alone serves while a few iterations are enough: the coarse levels cost as much as some ten.
+  constexpr int patience = 4;
+  SolveLimits first = limits;
+  first.max_iterations = smaller(patience, limits.max_iterations);
+  SolveResult result = conjugate_gradient(context_, matrix, first, increment, work_);
+  if (!result.converged) multigrid_.solve(matrix, rows, limits, {increment, work_, result});
+  return result;
 }
 
 }  // namespace slagflow

@@ -6,6 +6,7 @@
 
 #include "predictor.hpp"
 #include "setup.hpp"
+#include "solvers/multigrid.hpp"
 #include "solvers/solver.hpp"
 
 namespace slagflow {
@@ -21,6 +22,9 @@ class ViscousStep {
     double dt, kick, mass;
   };
   SolveResult advance(const PairContext&, const RowCells&, const Step&, Offset pair_capacity, FluidArrays&);
+
+  // Sets the first guess to nothing.
+  void forget(Buffer<Quad>& increment);
 
   Span<const Quad> velocity() const { return velocity_.span(); }
 
@@ -38,6 +42,7 @@ class ViscousStep {
   Buffer<Symmetric3> wall_;
   Buffer<Real> weight_;
   SolverWorkspace work_;
+  Multigrid multigrid_;
 };
 
 }  // namespace slagflow

@@ -127,8 +127,10 @@ void write_numerics(std::ostream& out, const Case& c) {
       << "\ndensity_diffusion = " << show(n.density_diffusion)
       << "\ntension_limit = " << show(n.tension_limit) << "\nanti_pairing = " << show(n.anti_pairing)
       << "\noperator = " << name_of(operator_names, n.viscous_operator)
-      << "\nexplicit_part = " << name_of(explicit_names, n.explicit_part)
-      << "\nviscosity_correction = " << show(n.viscosity_correction) << "\ntheta = " << show(n.theta)
+      << "\nexplicit_part = " << name_of(explicit_names, n.explicit_part) << "\nviscosity_correction = "
+      << (n.viscosity_correction > 0 ? show(n.viscosity_correction) : "\"auto\"")
+      << "\nviscous_step = " << name_of(stepping_names, n.viscous_step)
+      << "\ndiffusion_number = " << show(n.diffusion_number) << "\ntheta = " << show(n.theta)
       << "\nsolver = " << name_of(solver_names, n.solver) << "\ntolerance = " << show(n.tolerance)
       << "\nmax_iterations = " << n.max_iterations << "\nrelaxation = " << show(n.relaxation)
       << "\nskin = " << show(n.skin) << "\n\n";

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "backend/error.hpp"
+#include "constants.hpp"
 #include "host/geometry.hpp"
 #include "host/toml_reader.hpp"
 
@@ -89,6 +90,15 @@ void add_time_step(CaseCheck& check, const BuiltCase& built) {
     check.time_step = numerics.max_time_step;
     check.time_step_reason = "numerics.max_time_step";
   }
+  if (numerics.viscous_step == ViscousStepping::explicit_step)
+    for (const FluidSetup& fluid : built.setup.fluids) {
+      const double stiffest = static_cast<double>(viscosity(fluid.rheology, 0));
+      const double limit =
+          numerics.diffusion_number * fluid.rest_density * check.spacing * check.spacing / stiffest;
+      if (limit >= check.time_step) continue;
+      check.time_step = limit;
+      check.time_step_reason = "diffusion_number rho spacing^2 / viscosity at rest";
+    }
   check.steps = std::ceil(built.resolved.output.end_time / check.time_step);
 }
 
@@ -143,6 +153,7 @@ CaseCheck check_case(const BuiltCase& built) {
   check.spacing = setup.spacing;
   check.support_radius = setup.support_ratio * setup.spacing;
   check.sound_speed = setup.numerics.sound_speed;
+  check.viscosity_correction = viscosity_correction(setup);
   add_time_step(check, built);
   add_lengths(check, setup);
   add_speed(check, setup);
@@ -170,6 +181,8 @@ std::string to_text(const CaseCheck& c) {
   text +=
       "                 Reynolds = rho U L / eta, Bingham = tau_B L / (eta U), N = rho L sqrt(g H) / eta\n";
   text += format("sound speed      %.4g m/s, Mach number %.3g\n", c.sound_speed, c.mach);
+  text += format("viscosity        corrected by %.4f for the bias of the operator at this support ratio\n",
+                 c.viscosity_correction);
   text += format("memory           about %.3g MB\n", c.memory / 1e6);
   text += format("run time         roughly %s on two CPU cores (%.2g particle-steps/s)\n",
                  duration(c.run_time).c_str(), particle_steps_per_second);

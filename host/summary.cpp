@@ -14,8 +14,10 @@ const char* solver_name(ViscousSolver solver) {
       return "sor";
     case ViscousSolver::jacobi:
       return "jacobi";
-    default:
+    case ViscousSolver::conjugate_gradient:
       return "conjugate_gradient";
+    default:
+      return "multigrid";
   }
 }
 
@@ -32,7 +34,7 @@ Json viscous_of(const Json& solver, const SolverTotals& totals) {
       .set("iterations_mean", static_cast<double>(totals.iterations) / steps)
       .set("iterations_max", totals.max_iterations)
       .set("worst_residual", totals.worst_residual)
-      .set("unconverged_steps", totals.unconverged);
+      .set("retried_steps", totals.retried);
 }
 
 Json departed_of(const Totals& totals) {

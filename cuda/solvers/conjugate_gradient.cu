@@ -100,6 +100,7 @@ SolveResult conjugate_gradient(Context& context, const LinearSystem& system, con
     iterate(context, system, limits, u, work, result);
     if (result.iterations - before < drift_matters && result.residual <= limits.residual) break;
     result.residual = residual_norm(context, system, u.span(), work.residual, work.squared);
+    if (result.iterations >= limits.max_iterations) break;
   }
   result.converged = result.residual <= 2 * limits.residual;
   return result;

@@ -223,7 +223,7 @@ class Scene {
     world.support = setup.support_ratio * spacing;
     world.sound_speed = n.sound_speed, world.diffusion = n.density_diffusion;
     world.tension_limit = n.tension_limit, world.anti_pairing = n.anti_pairing;
-    world.correction = n.viscosity_correction;
+    world.correction = viscosity_correction(setup);
     const Vec3d g = setup.gravity, b = setup.body_acceleration;
     world.gravity = {g.x, g.y, g.z}, world.body_acceleration = {b.x, b.y, b.z};
     const auto& p = setup.domain.periodic;

@@ -80,7 +80,7 @@ TEST(Simulation, CountsAndMassesAddUpAtEveryStep) {
   EXPECT_GT(t.particles, 100);
   EXPECT_EQ(simulation.steps(), dam_steps);
   EXPECT_EQ(simulation.solver_totals().steps, dam_steps);
-  EXPECT_EQ(simulation.solver_totals().unconverged, 0);
+  EXPECT_EQ(simulation.solver_totals().retried, 0);
   EXPECT_GT(simulation.list_builds(), 1);
   EXPECT_LT(simulation.list_builds(), dam_steps);
 }
@@ -317,6 +317,54 @@ TEST(Simulation, GoesOnWhenAllParticlesHaveLeft) {
   EXPECT_EQ(t.departed[1], 27);
   EXPECT_NEAR(t.mass_left, t.mass_start, 1e-15);
   EXPECT_TRUE(read(simulation).position.empty());
+}
+
+TEST(Simulation, SolveThatDoesNotConvergeIsRetriedWithASmallerStep) {
+  SimulationSetup setup = dam();
+  setup.numerics.solver = ViscousSolver::conjugate_gradient;
+  Simulation smooth(setup);
+  smooth.step();
+  const int needed = smooth.last_solve().iterations;
+  ASSERT_GT(needed, 4);
+  setup.numerics.max_iterations = needed / 2;
+  Simulation simulation(setup);
+  const double full = simulation.time_step();
+  simulation.step();
+  EXPECT_GE(simulation.solver_totals().retried, 1);
+  EXPECT_TRUE(simulation.last_solve().converged);
+  EXPECT_LT(simulation.time_step(), 0.6 * full);
+  EXPECT_DOUBLE_EQ(simulation.time(), simulation.time_step());
+  // The density went the whole step and waits in the next one: then all is as after short steps.
+  const double quarter = simulation.time_step();
+  simulation.step();
+  EXPECT_DOUBLE_EQ(simulation.time(), full + quarter);
+  setup.numerics.max_time_step = quarter;
+  Simulation fine(setup), at_start(setup);
+  while (fine.time() < simulation.time() - quarter / 2) fine.step();
+  ASSERT_EQ(fine.solver_totals().retried, 0);
+  const FluidSnapshot before = read(at_start), a = read(simulation), b = read(fine);
+  double product = 0, weight = 0;
+  for (std::size_t i = 0; i < a.density.size(); ++i) {
+    const double wanted = static_cast<double>(b.density[i] - before.density[i]);
+    product += wanted * static_cast<double>(a.density[i] - before.density[i]), weight += wanted * wanted;
+  }
+  ASSERT_GT(weight, 0);
+  EXPECT_NEAR(product / weight, 1, 0.1);  // first order in a step of half the acoustic limit
+}
+
+TEST(Simulation, ExplicitViscosityTakesTheTimeStepOfItsLimit) {
+  SimulationSetup setup = dam();
+  setup.numerics.viscous_step = ViscousStepping::explicit_step;
+  setup.numerics.diffusion_number = 0.05;
+  Simulation simulation(setup);
+  simulation.step();
+  // The stiffest particle at rest: eta = eta_P + m tau_B, over its density.
+  double largest = 0;
+  for (const auto& fluid : setup.fluids)
+    largest = std::max(largest, static_cast<double>(viscosity(fluid.rheology, 0)) / fluid.rest_density);
+  EXPECT_NEAR(simulation.time_step(), 0.05 * setup.spacing * setup.spacing / largest,
+              0.02 * simulation.time_step());
+  EXPECT_EQ(simulation.last_solve().iterations, 0);
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ TEST(SimulationPhysics, ARestingBlockWithoutForcesDoesNotMove) {
   Simulation simulation(spinning_block(0));
   advance(simulation, 5);
   EXPECT_EQ(simulation.totals().max_speed, 0);
-  EXPECT_EQ(simulation.solver_totals().unconverged, 0);
+  EXPECT_EQ(simulation.solver_totals().retried, 0);
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ const std::vector<Wrong> wrong_cases{
      "rheology = 'bingam'",
      {"case.toml:9: key 'fluid.slag.rheology': value \"bingam\" is unknown: did you mean 'bingham'? allowed: "
       "newtonian, bingham"}},
-    {22, "solver = 'gauss'", {"case.toml:22", "allowed: conjugate_gradient, sor, jacobi"}},
+    {22, "solver = 'gauss'", {"case.toml:22", "allowed: multigrid, conjugate_gradient, sor, jacobi"}},
     {22, "kernel = 'gauss'", {"case.toml:22", "allowed: lucy"}},
     {28, "direction = 'down'", {"case.toml:28: key 'measure.0.direction': value \"down\" is unknown"}},
     {16, "name = 'floor'\nslip = 'slip'", {"case.toml:17", "allowed: no_slip, free_slip"}},

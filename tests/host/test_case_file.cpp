@@ -110,7 +110,7 @@ TEST(CaseFile, FillsInDefaults) {
   EXPECT_EQ(c.regions.at(0).pressure, InitialPressure::hydrostatic);
   EXPECT_EQ(c.domain.departure, Departure::remove);
   EXPECT_EQ(c.numerics.sound_speed, 0);
-  EXPECT_EQ(c.numerics.solver, ViscousSolver::conjugate_gradient);
+  EXPECT_EQ(c.numerics.solver, ViscousSolver::multigrid);
   EXPECT_DOUBLE_EQ(c.output.interval, 2.0 / 50);
   EXPECT_DOUBLE_EQ(c.output.history_interval, 2.0 / 500);
   EXPECT_TRUE(c.output.walls);

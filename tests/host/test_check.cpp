@@ -57,6 +57,22 @@ TEST(CaseCheck, TimeStepNamesItsLimit) {
   EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("max_time_step"));
 }
 
+TEST(CaseCheck, ExplicitViscosityIsLimitedByTheFluidAtRest) {
+  BuiltCase built = block();
+  built.setup.numerics.viscous_step = ViscousStepping::explicit_step;
+  built.setup.numerics.diffusion_number = 0.2;
+  built.setup.fluids[0].rheology.parameters[2] = 1000;
+  const CaseCheck c = check_case(built);
+  EXPECT_NEAR(c.time_step, 0.2 * 965 * 0.01 * 0.01 / (0.5 + 1000 * 5), 1e-6 * c.time_step);
+  EXPECT_THAT(c.time_step_reason, testing::HasSubstr("diffusion_number"));
+}
+
+TEST(CaseCheck, ShowsTheViscosityCorrection) {
+  const CaseCheck c = check_case(block());
+  EXPECT_NEAR(c.viscosity_correction, 1.047, 0.001);
+  EXPECT_THAT(to_text(c), testing::HasSubstr("corrected by 1.047"));
+}
+
 TEST(CaseCheck, TakesTheSpeedAtTheStartWhereItIsLarger) {
   BuiltCase built = block();
   built.setup.particles.velocity[3] = {0, 3, 4};

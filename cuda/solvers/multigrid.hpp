@@ -1,0 +1,55 @@
+// Conjugate gradients whose preconditioner is the point diagonal plus a W cycle over rigid motions of
+// aggregates (cells, then 2x2x2 of them, ...). A plug that is stiff but unyielded moves nearly as a rigid
+// body; what the diagonal alone would pass on from particle to particle, one iteration each, the coarse
+// levels carry across the body at once. Additive on the rows, with damped block Jacobi on the coarser levels:
+// linear and symmetric, so that the iteration is plain conjugate gradients. Aggregation with rigid-body
+// modes: P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179 (without their smoothing of the modes).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solvers/coarse_matrix.hpp"
+#include "solvers/solver.hpp"
+
+namespace slagflow {
+
+class Multigrid {
+ public:
+  explicit Multigrid(Context&);
+
+  struct Problem {
+    Buffer<Quad>& u;
+    SolverWorkspace& work;  // with the residual of u
+    SolveResult& result;    // with its norm and the iterations so far
+  };
+  // Goes on from u until the residual is small enough, and leaves the true residual in the result.
+  void solve(const LinearSystem&, const RowCells&, const SolveLimits&, Problem);
+
+  // Sets up the coarse levels.
+  void build(const LinearSystem&, const RowCells&);
+  // z = M^-1 r, M the preconditioner; r.z per row into `product`.
+  void precondition(const LinearSystem&, const RowCells&, Span<const Quad> r, Span<Quad> z,
+                    Span<double> product);
+
+ private:
+  struct Level {
+    explicit Level(Context& c)
+        : matrix(c), force(c, "coarse forces"), motion(c, "coarse motions"), rest(c, "coarse residuals") {}
+    CoarseMatrix matrix;
+    Buffer<double> force, motion, rest;
+  };
+
+  // Whether it ended because the energy of the error is small enough.
+  bool iterate(const LinearSystem&, const RowCells&, const SolveLimits&, Problem&);
+  void cycle(std::size_t level);
+  void residual(Level&);
+
+  Context& context_;
+  std::vector<std::unique_ptr<Level>> levels_;  // all that were ever needed
+  std::size_t used_ = 0;
+  Buffer<double> dense_;  // inverse of the coarsest matrix
+  Buffer<Quad> preconditioned_;
+};
+
+}  // namespace slagflow
