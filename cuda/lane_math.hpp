@@ -26,6 +26,12 @@ HOST_DEVICE inline QuadLanes gather(Span<const Quad> from, const Index* at) {
   gather(from.data, at, parts);
   return {parts[0], parts[1], parts[2], parts[3]};
 }
+// Where from[at[lane]] is `wanted`.
+HOST_DEVICE inline LaneMask same(Span<const std::uint8_t> from, const Index* at, std::uint8_t wanted) {
+  Real found[lane_count];
+  for (int lane = 0; lane < lane_count; ++lane) found[lane] = from[at[lane]] == wanted ? Real(1) : Real(0);
+  return Lanes(0) < load_lanes(found);
+}
 HOST_DEVICE inline Lanes gather(Span<const Real> from, const Index* at) { return gather(from.data, at); }
 
 // Elements first, first + 1, ...

@@ -18,7 +18,7 @@ struct PredictorOutput {
 
 //   u*_i = v_i + dt (g - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij) F_ij x_ij)
 //   pairing_ij = eps [(W(r)/W(dx))^4 - 1]_+ (|p_i|/rho_i^2 + |p_j|/rho_j^2)
-// and, for the radial operator, with the harmonic mean eta_ij,
+// and, for the radial operator, with the mean eta_ij, harmonic between two fluids,
 //   w_ij = theta dt C 2(d+2) eta_ij V_i V_j |F_ij| / r^2
 // (J. J. Monaghan's radial viscous term in the form of M. Weiler et al., Comput. Graph. Forum 37 (2018) 135).
 // The laplacian operator has w_ij |x_ij|^2 = theta dt C 2 eta_ij V_i V_j |F_ij|.

@@ -1,6 +1,7 @@
 // The oracle of the implicit viscous step: its dense matrix, its right hand side and their solution.
 //   m u + theta dt K (u - u_wall) = m u* - (1 - theta) dt K (v - u_wall),  (K u)_i = sum_j w_ij x_ij
-//   (x_ij.(u_i - u_j)) w_ij = C 2 (d + 2) eta_ij V_i V_j |F_ij| / (r^2 + 1e-6 h^2),  eta_ij the harmonic mean
+//   (x_ij.(u_i - u_j)) w_ij = C 2 (d + 2) eta_ij V_i V_j |F_ij| / (r^2 + 1e-6 h^2),  eta_ij the mean,
+//   harmonic between fluids
 #pragma once
 
 #include <stdexcept>
@@ -78,7 +79,9 @@ inline ViscousOperator viscous_operator(const World& w) {
       const Particle& o = w.particles[j];
       if (i == j) continue;
       for_images(w, p.x, o.x, w.support, [&](Vec d) {
-        const double mean = 2 / (1 / p.viscosity + 1 / o.viscosity), s = weight(mean, p.volume * o.volume, d);
+        const double mean =
+            p.fluid == o.fluid ? (p.viscosity + o.viscosity) / 2 : 2 / (1 / p.viscosity + 1 / o.viscosity);
+        const double s = weight(mean, p.volume * o.volume, d);
         add_block(result.matrix, i, i, s, d);
         add_block(result.matrix, i, j, -s, d);
       });
