@@ -90,7 +90,7 @@ TEST(Poiseuille, BinghamPlugAndShearedLayers) {
   const Papanastasiou exact{8, 1000};
   const double error = profile_error(flow.snapshot(), [&](double z) { return exact.velocity(z); });
   std::printf("error against the Papanastasiou profile %.2f %%\n", 100 * error);
-  EXPECT_LT(error, 0.05);
+  EXPECT_LT(error, 0.03);  // measured 1.5 %
 }
 
 // A wall stress of 20 Pa below a yield stress of 25 Pa: only the creep of the regularisation, whose speed in

@@ -8,10 +8,6 @@ from verification.suite import Run, profile_row, relative_row
 NAME = "pipe"
 TITLE = "pipe, slag"
 RADIUS = 0.01  # [m]
-MISSES = dict.fromkeys(
-    ("20 across, Bingham: velocity", "20 across, Bingham: speed in the middle [m/s]"),
-    "a shear rate is a sum over the support radius, so the rim of the plug, 4 of 10 particles in radius, counts as "
-    "yielded and moves on; a Newtonian fluid is right")
 
 
 def runs(quick):
