@@ -32,6 +32,13 @@ struct AggregateGrid {
     return {(cell.along[0] + 0.5) * width.x, (cell.along[1] + 0.5) * width.y,
             (cell.along[2] + 0.5) * width.z};
   }
+  // The length of periodic axes on which a cell may touch another, or itself, from both sides [m]; else 0.
+  HOST_DEVICE Vec3d short_period() const {
+    Vec3d result;
+    for (int axis = 0; axis < 3; ++axis)
+      if (periodic[axis] && count[axis] < 3) result[axis] = count[axis] * width[axis];
+    return result;
+  }
   // From the centre of a cell to that of the one in a slot around it [m].
   HOST_DEVICE Vec3d offset(int slot) const {
     return {(slot % 3 - 1) * width.x, (slot / 3 % 3 - 1) * width.y, (slot / 9 - 1) * width.z};

@@ -111,6 +111,7 @@ struct AssembleRows {
     Index last = -1;
     const Offset first = system.links.row(i);
     const bool periodic = system.box.any();
+    const Vec3d short_period = aggregates.grid.short_period();
     for (Index k = 0; k < system.links.length[i]; ++k) {
       const Offset at = first + k * ListView::stride();
       const Index j = system.links.entry[at], b = owner[j];
@@ -120,10 +121,44 @@ struct AssembleRows {
         last = b;
       }
       Vec3d d = here - to_double(xyz(system.place[j]));
-      if (periodic) d = nearest_image(system.box, d);
-      sum->add(system.coupling, static_cast<double>(system.weight[at]), d);
+      const auto weight = static_cast<double>(system.weight[at]);
+      if (periodic) {
+        const Vec3d direct = d;
+        d = nearest_image(system.box, d);
+        if (differ_by(direct, d, short_period)) {
+          sums[0].add(system.coupling, weight, d);
+          add_across(a, i, j, weight, d);
+          continue;
+        }
+      }
+      sum->add(system.coupling, weight, d);
     }
     add_sums(a, i, sums, total);
+  }
+
+  HOST_DEVICE static bool differ_by(Vec3d a, Vec3d b, Vec3d period) {
+    for (int k = 0; k < 3; ++k)
+      if (std::fabs(a[k] - b[k]) > 0.5 * period[k] && period[k] > 0) return true;
+    return false;
+  }
+
+  // A link across the faces of a ring of one or two cells: the centre of the other aggregate is on its other
+  // side as well, so each end is moved at its own place.
+  HOST_DEVICE void add_across(Index a, Index i, Index j, double weight, Vec3d d) const {
+    const Index b = owner[j];
+    const int slot = aggregates.grid.slot(aggregates.steps[a], aggregates.steps[b]);
+    if (slot < own_slot) return;
+    const bool radial = system.coupling == PairCoupling::radial;
+    const double scale = aggregates.grid.scale;
+    for (int axis = 0; axis < (radial ? 1 : 3); ++axis) {
+      Vec3d s = std::sqrt(weight) * d;
+      if (!radial) s = {}, s[axis] = std::sqrt(weight * dot(d, d));
+      const RigidMotion left = force_at(arm(system, aggregates, i, a), scale, s);
+      const RigidMotion right = force_at(arm(system, aggregates, j, b), scale, s);
+      double* entries = kept_block(block, a, slot);
+      for (int k = 0; k < motions; ++k)
+        for (int l = 0; l < motions; ++l) entries[k * motions + l] -= left[k] * right[l];
+    }
   }
 
   HOST_DEVICE void add_sums(Index a, Index i, LinkSum* sums, RigidSum* total) const {
@@ -144,7 +179,7 @@ struct AssembleRows {
     double* out = kept_block(block, a, own_slot);
     for (int k = 0; k < motions; ++k)
       for (int l = 0; l < motions; ++l)
-        out[k * motions + l] = entries[k][l] + (k == l && k > 2 ? inertia : 0);
+        out[k * motions + l] += entries[k][l] + (k == l && k > 2 ? inertia : 0);
   }
 
   // The forces turned, and their moments taken about the centre of the other aggregate.
@@ -157,8 +192,8 @@ struct AssembleRows {
       const double* row = entries[k];
       const Vec3d shift = cross(offset, {row[0], row[1], row[2]});
       for (int l = 0; l < 3; ++l) {
-        out[k * motions + l] = -row[l];
-        out[k * motions + 3 + l] = shift[l] - row[3 + l];
+        out[k * motions + l] -= row[l];
+        out[k * motions + 3 + l] += shift[l] - row[3 + l];
       }
     }
   }
