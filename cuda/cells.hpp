@@ -34,17 +34,21 @@ struct CellGrid {
     return (along(2, place.z) * count[1] + along(1, place.y)) * count[0] + along(0, place.x);
   }
 
-  // Calls visit(first_cell, last_cell) for runs of cells that follow each other in memory and together are
-  // the cell of `place` and those up to `range` cells away, each once.
+  // Calls visit(first_cell, last_cell) for runs of cells that follow each other in memory and together hold
+  // every place closer than `reach` [m] to `place`, each cell once.
   template <class Visit>
-  HOST_DEVICE void for_neighbour_cells(Vec3 place, int range, Visit visit) const {
-    const Around x = around(0, along(0, place.x), range);
-    for_rows_around(along(1, place.y), along(2, place.z), range, [&](Index row) {
-      const int n = count[0];
-      visit(row + larger(x.first, 0), row + smaller(x.last, n - 1));
-      if (x.first < 0) visit(row + n + x.first, row + n - 1);
-      if (x.last >= n) visit(row, row + x.last - n);
-    });
+  HOST_DEVICE void for_cells_within(Vec3 place, Real reach, Visit visit) const {
+    const Real wide = reach * Real(1.001);  // rounding must not lose a place
+    const Around y = around(1, place.y, wide), z = around(2, place.z, wide);
+    for (int k = z.first; k <= z.last; ++k) {
+      const Real beyond_z = square(wide) - square(gap(2, k, place.z, z));
+      for (int j = y.first; j <= y.last; ++j) {
+        const Real beyond = beyond_z - square(gap(1, j, place.y, y));
+        if (beyond <= 0) continue;
+        const Index row = (wrapped(2, k) * count[1] + wrapped(1, j)) * count[0];
+        visit_run(row, around(0, place.x, std::sqrt(beyond)), visit);
+      }
+    }
   }
 
   // Calls visit(cell) for the cells up to `range` away from cell (x, y, z), itself included, each once.
@@ -54,6 +58,14 @@ struct CellGrid {
     for_rows_around(cy, cz, range, [&](Index row) {
       for (int c = x.first; c <= x.last; ++c) visit(row + wrapped(0, c));
     });
+  }
+
+  // The same cells in runs that follow each other in memory: visit(first_cell, last_cell).
+  template <class Visit>
+  HOST_DEVICE void for_runs_around(Index cell, int range, Visit visit) const {
+    const Around x = around(0, cell % count[0], range);
+    for_rows_around(cell / count[0] % count[1], cell / count[0] / count[1], range,
+                    [&](Index row) { visit_run(row, x, visit); });
   }
 
  private:
@@ -68,9 +80,30 @@ struct CellGrid {
     return {c - range, c + range};
   }
 
+  // The cells along an axis that hold places closer than `reach` to a coordinate. On a periodic axis they go
+  // on beyond the ends, from the coordinate as it is.
+  HOST_DEVICE Around around(int axis, Real coordinate, Real reach) const {
+    if (!periodic[axis]) return {along(axis, coordinate - reach), along(axis, coordinate + reach)};
+    const int first = static_cast<int>(std::floor((coordinate - reach) * inverse_width[axis]));
+    const int last = static_cast<int>(std::floor((coordinate + reach) * inverse_width[axis]));
+    if (last - first + 1 >= count[axis]) return {0, count[axis] - 1};
+    return {first, last};
+  }
+
+  // Least distance of a coordinate from the places in cell c along an axis [m]; 0 where the cells of `all`
+  // come once around a periodic axis. Border cells have no outer end.
+  HOST_DEVICE Real gap(int axis, int c, Real coordinate, Around all) const {
+    const bool ring = periodic[axis];
+    if (ring && all.last - all.first + 1 == count[axis]) return 0;
+    const Real scaled = coordinate * inverse_width[axis];
+    const Real below = ring || c > 0 ? static_cast<Real>(c) - scaled : Real(0);
+    const Real above = ring || c < count[axis] - 1 ? scaled - static_cast<Real>(c + 1) : Real(0);
+    return larger(Real(0), larger(below, above)) / inverse_width[axis];
+  }
+
   HOST_DEVICE int wrapped(int axis, int c) const {
     const int n = count[axis];
-    return c < 0 ? c + n : (c >= n ? c - n : c);
+    return c < 0 ? (c % n + n) % n : (c >= n ? c % n : c);
   }
 
   // Calls visit(row) with the first cell of each row in x.
@@ -79,6 +112,13 @@ struct CellGrid {
     const Around y = around(1, cy, range), z = around(2, cz, range);
     for (int k = z.first; k <= z.last; ++k)
       for (int j = y.first; j <= y.last; ++j) visit((wrapped(2, k) * count[1] + wrapped(1, j)) * count[0]);
+  }
+
+  template <class Visit>
+  HOST_DEVICE void visit_run(Index row, Around x, Visit visit) const {
+    const int n = count[0], first = wrapped(0, x.first), last = first + x.last - x.first;
+    visit(row + first, row + smaller(last, n - 1));
+    if (last >= n) visit(row, row + last - n);
   }
 };
 

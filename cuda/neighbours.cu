@@ -12,28 +12,43 @@ struct Search {
   SourceView sources;
   Span<const Quad> targets;
   Box box;
-  Real reach_squared;
-  int range;  // in cells
+  Real reach;
   bool self;
+  Span<const std::uint8_t> occupied;  // 0: no source within reach of any place in the cell; empty: not known
 
   template <class Found>
   HOST_DEVICE void operator()(Index i, Found found) const {
     const Vec3 here = xyz(targets[i]);
+    if (occupied.size > 0 && !occupied[sources.grid.cell_of(here)]) return;
     const LaneVec3 centre = in_lanes(here);
-    sources.grid.for_neighbour_cells(here, range, [&](Index first, Index last) {
+    sources.grid.for_cells_within(here, reach, [&](Index first, Index last) {
       const Index end = sources.cell_start[last + 1];
       for (Index j = sources.cell_start[first]; j < end; j += lane_count) {
         const LaneVec3 d = box.separation(centre, xyz(load_lanes(sources.place, j)));
-        unsigned lanes = bits(dot(d, d) < Lanes(reach_squared));
+        unsigned lanes = bits(dot(d, d) < Lanes(square(reach)));
         if (end - j < lane_count) lanes &= (1u << (end - j)) - 1;
         if (self && i >= j && i < j + lane_count) lanes &= ~(1u << (i - j));
-        if (lanes) found(j, lanes);
+        found(j, lanes);
       }
     });
   }
 };
 
 namespace {
+
+// Whether there are sources in a cell or in those up to `range` away.
+struct MarkOccupied {
+  CellGrid grid;
+  Span<const Index> cell_start;
+  int range;
+  Span<std::uint8_t> occupied;
+  HOST_DEVICE void operator()(Index cell) const {
+    bool any = false;
+    grid.for_runs_around(
+        cell, range, [&](Index first, Index last) { any = any || cell_start[last + 1] > cell_start[first]; });
+    occupied[cell] = any ? 1 : 0;
+  }
+};
 
 template <class Box>
 struct CountRow {
@@ -81,16 +96,23 @@ NeighbourList::NeighbourList(Context& context, const char* name)
       length_(context, name),
       slice_length_(context, name),
       slice_(context, name),
-      entry_(context, name) {}
+      entry_(context, name),
+      occupied_(context, name) {}
 
 void NeighbourList::build(const SourceView& sources, Span<const Quad> targets, const PeriodicBox& box,
                           Real reach, Pairs pairs) {
-  const int range = static_cast<int>(std::ceil(static_cast<double>(reach) / sources.grid.narrowest));
   const bool self = pairs == Pairs::self;
+  // Most targets are far from any source of the other kind.
+  occupied_.resize(self ? 0 : sources.grid.cells());
+  if (!self) {
+    const int range = static_cast<int>(std::ceil(static_cast<double>(reach) / sources.grid.narrowest));
+    launch(context_, "occupied cells", sources.grid.cells(),
+           MarkOccupied{sources.grid, sources.cell_start, range, occupied_.span()});
+  }
   if (box.any())
-    search_and_store(Search<PeriodicBox>{sources, targets, box, reach * reach, range, self});
+    search_and_store(Search<PeriodicBox>{sources, targets, box, reach, self, occupied_.span()});
   else
-    search_and_store(Search<OpenBox>{sources, targets, {}, reach * reach, range, self});
+    search_and_store(Search<OpenBox>{sources, targets, {}, reach, self, occupied_.span()});
 }
 
 template <class Box>

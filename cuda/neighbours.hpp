@@ -55,6 +55,7 @@ class NeighbourList {
   Buffer<Index> length_;
   Buffer<Offset> slice_length_, slice_;
   Buffer<Index> entry_;
+  Buffer<std::uint8_t> occupied_;  // of each cell
   Offset capacity_ = 0;
 };
 
