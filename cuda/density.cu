@@ -7,9 +7,8 @@ namespace slagflow {
 
 namespace {
 
-template <class T>  // Real or Lanes
 struct PairSums {
-  T divergence = 0, diffusion = 0, shear = 0;
+  Lanes divergence = 0, diffusion = 0, shear = 0;
 };
 
 // Particle i as its pairs see it.
@@ -33,19 +32,20 @@ struct DensityAndShear {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w,
                         (rest_density / c.flow.sound_speed_squared) * c.flow.gravity};
-    PairSums<Real> sums = over_fluid(i, centre);
+    PairSums sums;
+    add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
-    const Real rate = (rest_density + motion.w) * sums.divergence + c.flow.diffusion * sums.diffusion;
+    const Real rate =
+        (rest_density + motion.w) * total(sums.divergence) + c.flow.diffusion * total(sums.diffusion);
     excess[i] = motion.w + dt * rate;
-    shear_rate[i] = std::sqrt(c.flow.shear_factor * sums.shear);
+    shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
   }
 
-  HOST_DEVICE PairSums<Real> over_fluid(Index i, const Centre& centre) const {
+  HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
                    hydrostatic = in_lanes(centre.hydrostatic);
     const Offset first = c.fluid_list.row(i);
     const Index pairs = c.fluid_list.length[i];
-    PairSums<Lanes> sums;
     for (Index k = 0; k < pairs; k += lane_count) {
       const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
       const QuadLanes there = gather(c.fluid.place, j);
@@ -60,30 +60,33 @@ struct DensityAndShear {
       sums.diffusion -= weight * ((other.w - centre.excess) + dot(hydrostatic, d));
       sums.shear -= share * approach / (r2 + c.flow.softening);
     }
-    return {total(sums.divergence), total(sums.diffusion), total(sums.shear)};
   }
 
-  HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums<Real>& sums) const {
+  HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
+    const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
+                   hydrostatic = in_lanes(centre.hydrostatic);
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
-    for (Index k = 0; k < pairs; ++k) {
-      const Index j = c.wall_list.entry[first + k * ListView::stride()];
-      const Vec3 d = box.separation(centre.place, xyz(c.wall.place[j]));
-      const Real r2 = dot(d, d);
-      if (r2 >= square(c.flow.support)) continue;
-      const Quad other = c.wall.velocity[j];
-      const Real weight = c.flow.wall_volume * smoothing.gradient(std::sqrt(r2));
-      const Real approach = dot(centre.velocity - xyz(other), d);
-      sums.divergence += weight * approach;
+    for (Index k = 0; k < pairs; k += lane_count) {
+      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j)));
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
+      if (!bits(near)) continue;
+      const QuadLanes other = gather(c.wall.velocity, j);
+      const Lanes weight = select(near, c.flow.wall_volume * smoothing.gradient(root(r2)), Lanes(0));
+      const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
+      sums.divergence += share;
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
-      const Real pressure = c.wall.pressure[j];
-      if (pressure > -c.flow.tension_limit)
-        sums.diffusion -=
-            weight * ((pressure / c.flow.sound_speed_squared - centre.excess) + dot(centre.hydrostatic, d));
-      if (other.w < 0) continue;
-      const Real stick = no_slip_factor({d, c.wall.normal[j], c.wall.back[j]}, c.flow.spacing, other.w);
+      const Lanes pressure = gather(c.wall.pressure, j);
+      const Lanes difference = pressure / c.flow.sound_speed_squared - centre.excess;
+      sums.diffusion -= select(pressure > Lanes(-c.flow.tension_limit),
+                               weight * (difference + dot(hydrostatic, d)), Lanes(0));
+      const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
-      sums.shear -= 2 * stick * weight * approach * approach / (r2 + c.flow.softening);
+      const Lanes dissipated = Real(2) * stick * share * approach / (r2 + c.flow.softening);
+      sums.shear -= select(other.w < Lanes(0), Lanes(0), dissipated);
     }
   }
 };

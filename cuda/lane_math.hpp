@@ -15,6 +15,10 @@ HOST_DEVICE inline LaneVec3 in_lanes(Vec3 a) { return {a.x, a.y, a.z}; }
 // Sum over the lanes.
 HOST_DEVICE inline Vec3 total(LaneVec3 a) { return {total(a.x), total(a.y), total(a.z)}; }
 
+HOST_DEVICE inline Symmetric3 total(const SymmetricMatrix3<Lanes>& a) {
+  return {total(a.xx), total(a.yy), total(a.zz), total(a.xy), total(a.xz), total(a.yz)};
+}
+
 struct QuadLanes {
   Lanes x, y, z, w;
 };

@@ -72,8 +72,7 @@ struct RelaxationRow {
       add_coupling(system.coupling, w, d, links);
     });
     residual = xyz(system.right_hand_side[i]) - mass * here - block * here - total(sum);
-    block.xx += total(links.xx), block.yy += total(links.yy), block.zz += total(links.zz);
-    block.xy += total(links.xy), block.xz += total(links.xz), block.yz += total(links.yz);
+    block += total(links);
     block.add_diagonal(mass);
   }
 };

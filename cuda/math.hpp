@@ -78,12 +78,15 @@ template <class T>
 struct SymmetricMatrix3 {
   T xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
 
-  HOST_DEVICE void add_outer(Vector3<T> s) { add_outer(T(Real(1)), s); }
   // Adds weight s s^T.
   HOST_DEVICE void add_outer(T weight, Vector3<T> s) {
     const T x = weight * s.x, y = weight * s.y;
     xx += x * s.x, yy += y * s.y, zz += weight * s.z * s.z;
     xy += x * s.y, xz += x * s.z, yz += y * s.z;
+  }
+  HOST_DEVICE SymmetricMatrix3& operator+=(const SymmetricMatrix3& b) {
+    xx += b.xx, yy += b.yy, zz += b.zz, xy += b.xy, xz += b.xz, yz += b.yz;
+    return *this;
   }
   HOST_DEVICE void add_diagonal(T d) { xx += d, yy += d, zz += d; }
   HOST_DEVICE Vector3<T> operator*(Vector3<T> v) const {

@@ -41,9 +41,6 @@ HOST_DEVICE Vector3<T> couple(PairCoupling coupling, T weight, Vector3<T> d, Vec
                                           : (weight * dot(d, d)) * difference;
 }
 
-HOST_DEVICE inline Vec3 couple(PairCoupling coupling, Vec3 s, Vec3 difference) {
-  return coupling == PairCoupling::radial ? dot(s, difference) * s : dot(s, s) * difference;
-}
 template <class T>
 HOST_DEVICE void add_coupling(PairCoupling coupling, T weight, Vector3<T> d, SymmetricMatrix3<T>& block) {
   if (coupling == PairCoupling::radial)
@@ -51,13 +48,6 @@ HOST_DEVICE void add_coupling(PairCoupling coupling, T weight, Vector3<T> d, Sym
   else
     block.add_diagonal(weight * dot(d, d));
 }
-HOST_DEVICE inline void add_coupling(PairCoupling coupling, Vec3 s, Symmetric3& block) {
-  if (coupling == PairCoupling::radial)
-    block.add_outer(s);
-  else
-    block.add_diagonal(dot(s, s));
-}
-
 struct FluidConstants {
   Real rest_density;  // [kg/m^3]
   Real mass;          // of a particle [kg]
@@ -90,19 +80,22 @@ struct FlowConstants {
 // velocity gradient) the line vanishes at depth b: the weight grows by (d_f + d_w)/(d_f + b). The factor
 // scales all of the pair, so that the matrix stays symmetric and b -> infinity is free slip; what keeps the
 // fluid off a slippery wall is pressure.
+template <class T, class Face>  // Real and Quad, or Lanes and QuadLanes
 struct WallPairGeometry {
-  Vec3 fluid_minus_wall;
-  Quad normal;  // xyz unit normal, w depth of the wall particle [m]
-  Quad back;    // the same of the opposite face of a thin plate, w = 0 without one
+  Vector3<T> fluid_minus_wall;
+  Face normal;  // xyz unit normal, w depth of the wall particle [m]
+  Face back;    // the same of the opposite face of a thin plate, w = 0 without one
 };
 
 // `slip_length`: b [m] >= 0, 0 without slip.
-HOST_DEVICE inline Real no_slip_factor(const WallPairGeometry& pair, Real spacing, Real slip_length) {
-  const Vec3 d = pair.fluid_minus_wall;
-  const bool behind = pair.back.w > 0 && dot(d, xyz(pair.back)) > pair.back.w;
-  const Quad face = behind ? pair.back : pair.normal;
-  const Real d_f = larger(dot(d, xyz(face)) - face.w, Real(0.25) * spacing);
-  return smaller(Real(3), 1 + (face.w - slip_length) / (d_f + slip_length));
+template <class T, class Face>
+HOST_DEVICE T no_slip_factor(const WallPairGeometry<T, Face>& pair, Real spacing, T slip_length) {
+  const Vector3<T> d = pair.fluid_minus_wall;
+  const T front = dot(d, xyz(pair.normal)) - pair.normal.w, rear = dot(d, xyz(pair.back)) - pair.back.w;
+  const auto behind = (pair.back.w > T(0)) & (rear > T(0));
+  const T depth = select(behind, pair.back.w, pair.normal.w);
+  const T d_f = larger(select(behind, rear, front), T(Real(0.25) * spacing));
+  return smaller(T(3), T(1) + (depth - slip_length) / (d_f + slip_length));
 }
 
 }  // namespace slagflow

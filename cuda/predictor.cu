@@ -76,32 +76,36 @@ struct PredictAndAssemble {
   HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
-    Symmetric3 block;
-    Vec3 drag;
+    LaneVec3 push, drag;
+    SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);
-    for (Index k = 0; k < c.wall_list.length[i]; ++k) {
-      const Index j = c.wall_list.entry[first + k * ListView::stride()];
-      const Vec3 d = box.separation(x, xyz(c.wall.place[j]));
-      const Real r2 = dot(d, d);
-      if (r2 >= square(c.flow.support)) continue;
-      const Real r = std::sqrt(r2);
-      const Real f = smoothing.gradient(r);
-      const Real density = rest_density + c.wall.pressure[j] / c.flow.sound_speed_squared;
-      const Real other = c.wall.pressure[j] / square(density);
-      acceleration -= (own.w * pressure_term(own.x, other, r) * f) * d;
-      const Quad motion = c.wall.velocity[j];
-      if (motion.w < 0) continue;
-      const Real stick = no_slip_factor({d, c.wall.normal[j], c.wall.back[j]}, c.flow.spacing, motion.w);
-      const Vec3 s = std::sqrt(-factor * stick * f / (r2 + c.flow.softening)) * d;
-      add_coupling(c.flow.coupling, s, block);
-      drag += couple(c.flow.coupling, s, xyz(motion));
+    const Index entries = c.wall_list.length[i];
+    for (Index k = 0; k < entries; k += lane_count) {
+      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.wall.place, j)));
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
+      if (!bits(near)) continue;
+      const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
+      const Lanes pressure = gather(c.wall.pressure, j);
+      const Lanes density = rest_density + pressure / c.flow.sound_speed_squared;
+      push += (f * pressure_term(Lanes(own.x), pressure / square(density), r)) * d;
+      const QuadLanes motion = gather(c.wall.velocity, j);
+      const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
+      const Lanes weight = -factor * stick * f / (r2 + c.flow.softening);
+      const Lanes sticking = select(motion.w < Lanes(0), Lanes(0), weight);
+      add_coupling(c.flow.coupling, sticking, d, coupled);
+      drag += couple(c.flow.coupling, sticking, d, xyz(motion));
     }
+    acceleration -= own.w * total(push);
+    const Symmetric3 block = total(coupled);
     const Vec3 predicted = xyz(c.fluid.motion[i]) + dt * acceleration;
     diagonal += Vec3{block.xx, block.yy, block.zz};
     out.predicted[i] = quad(predicted, 0);
     out.wall[i] = block;
     out.diagonal[i] = quad(diagonal, own.w);
-    out.right_hand_side[i] = quad(own.w * predicted + drag, 0);
+    out.right_hand_side[i] = quad(own.w * predicted + total(drag), 0);
   }
 };
 

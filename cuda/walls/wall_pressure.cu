@@ -1,4 +1,5 @@
 #include "backend/launch.hpp"
+#include "lane_math.hpp"
 #include "smoothing/lucy.hpp"
 #include "walls/wall_pressure.hpp"
 
@@ -15,18 +16,25 @@ struct WallPressure {
   Span<Real> pressure;
 
   HOST_DEVICE void operator()(Index w) const {
-    const Vec3 x = xyz(c.wall.place[w]);
+    const LaneVec3 x = in_lanes(xyz(c.wall.place[w])), gravity = in_lanes(c.flow.gravity);
     const Offset first = list.row(w);
-    Real weights = 0, sum = 0;
-    for (Index k = 0; k < list.length[w]; ++k) {
-      const Index f = list.entry[first + k * ListView::stride()];
-      const Vec3 d = box.separation(x, xyz(c.fluid.place[f]));
-      const Real weight = smoothing.value(norm(d));
-      const Real density = c.fluids[c.fluid.fluid[f]].rest_density + c.fluid.motion[f].w;
+    const Index entries = list.length[w];
+    Lanes weights = 0, sum = 0;
+    for (Index k = 0; k < entries; k += lane_count) {
+      const Index* f = &list.entry[first + k * ListView::stride()];
+      const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, f)));
+      const Lanes weight = select(first_lanes(entries - k), smoothing.value(root(dot(d, d))), Lanes(0));
       weights += weight;
-      sum += weight * (c.fluid.pressure[f] + density * dot(c.flow.gravity, d));
+      sum += weight * (gather(c.fluid.pressure, f) + density(f) * dot(gravity, d));
     }
-    pressure[w] = weights > 0 ? larger(sum / weights, -c.flow.tension_limit) : Real(0);
+    const Real all = total(weights);
+    pressure[w] = all > 0 ? larger(total(sum) / all, -c.flow.tension_limit) : Real(0);
+  }
+
+  HOST_DEVICE Lanes density(const Index* f) const {
+    Real rest[lane_count];
+    for (int k = 0; k < lane_count; ++k) rest[k] = c.fluids[c.fluid.fluid[f[k]]].rest_density;
+    return load_lanes(rest) + gather(c.fluid.motion, f).w;
   }
 };
 

@@ -54,9 +54,9 @@ TEST(Quad, HoldsAVectorAndANumberAlignedForOneLoad) {
 TEST(Symmetric3, OuterProductProjectsOntoItsVector) {
   Symmetric3 m;
   const Vec3 s{1, -2, 3}, t{0, 4, 1}, v{5, 6, 7};
-  m.add_outer(s);
+  m.add_outer(1, s);
   EXPECT_EQ(m * v, s * dot(s, v));
-  m.add_outer(t);
+  m.add_outer(1, t);
   EXPECT_EQ(m * v, s * dot(s, v) + t * dot(t, v));
 }
 

@@ -10,7 +10,7 @@ constexpr Real dx = 1;
 const Quad up{0, 0, 1, Real(0.5)}, none{};
 
 double factor(Vec3 d, Quad face, Quad back, Real slip_length = 0) {
-  return static_cast<double>(no_slip_factor({d, face, back}, dx, slip_length));
+  return static_cast<double>(no_slip_factor(WallPairGeometry<Real, Quad>{d, face, back}, dx, slip_length));
 }
 
 TEST(NoSlip, MirrorsTheVelocityAtEqualDistances) {
