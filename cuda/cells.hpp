@@ -60,6 +60,15 @@ struct CellGrid {
     });
   }
 
+  // Calls visit(other) for the cells up to `range` away along one axis, `cell` included.
+  template <class Visit>
+  HOST_DEVICE void for_line_around(Index cell, int axis, int range, Visit visit) const {
+    const Index step = axis == 0 ? 1 : (axis == 1 ? count[0] : count[0] * count[1]);
+    const int c = cell / step % count[axis];
+    const Around line = around(axis, c, range);
+    for (int k = line.first; k <= line.last; ++k) visit(cell + (wrapped(axis, k) - c) * step);
+  }
+
   // The same cells in runs that follow each other in memory: visit(first_cell, last_cell).
   template <class Visit>
   HOST_DEVICE void for_runs_around(Index cell, int range, Visit visit) const {

@@ -100,14 +100,14 @@ struct InterpolateAtPoint {
   Span<const Real> shear_rate;
   PeriodicBox box;
   Lucy W;
-  int range;
+  Real reach;  // of the support, from where the particles were sorted
   Span<const Quad> point;
   Span<Sample> result;
 
   // The distance from point to particle in units of the support keeps the moments of order one.
   template <class Visit>
   HOST_DEVICE void for_particles(Vec3 at, Visit visit) const {
-    grid.for_neighbour_cells(at, range, [&](Index first, Index last) {
+    grid.for_cells_within(at, reach, [&](Index first, Index last) {
       for (Index j = cell_start[first]; j < cell_start[last + 1]; ++j) {
         const Vec3 d = box.separation(xyz(place[j]), at);
         const Real r = norm(d);
@@ -216,11 +216,11 @@ std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& sourc
   point.upload(points);
   result.resize(points.size());
   const CellGrid& grid = source.cells.grid;
-  const int range = static_cast<int>(std::ceil((source.support + source.drift) / grid.narrowest));
+  const auto reach = static_cast<Real>(source.support + source.drift);
   const FluidArrays& f = source.fluid;
   launch(c, "profile", line.points,
          InterpolateAtPoint{grid, source.cells.cell_start, f.place.span(), f.motion.span(), f.state.span(),
-                            f.shear_rate.span(), source.box, Lucy(source.support, source.dimensions), range,
+                            f.shear_rate.span(), source.box, Lucy(source.support, source.dimensions), reach,
                             point.span(), result.span()});
   std::vector<Sample> samples;
   result.download(samples);

@@ -1,52 +1,29 @@
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
-#include "lane_math.hpp"
-#include "neighbours.hpp"
+#include "group_search.hpp"
 
 namespace slagflow {
 
-// Calls found(j, lanes) for sources j, j + 1, ... of which those whose bit is set in `lanes` are within reach
-// of target i, in ascending order within each run of cells.
-template <class Box>
-struct Search {
-  SourceView sources;
-  Span<const Quad> targets;
-  Box box;
-  Real reach;
-  bool self;
-  Span<const std::uint8_t> occupied;  // 0: no source within reach of any place in the cell; empty: not known
+namespace {
 
-  template <class Found>
-  HOST_DEVICE void operator()(Index i, Found found) const {
-    const Vec3 here = xyz(targets[i]);
-    if (occupied.size > 0 && !occupied[sources.grid.cell_of(here)]) return;
-    const LaneVec3 centre = in_lanes(here);
-    sources.grid.for_cells_within(here, reach, [&](Index first, Index last) {
-      const Index end = sources.cell_start[last + 1];
-      for (Index j = sources.cell_start[first]; j < end; j += lane_count) {
-        const LaneVec3 d = box.separation(centre, xyz(load_lanes(sources.place, j)));
-        unsigned lanes = bits(dot(d, d) < Lanes(square(reach)));
-        if (end - j < lane_count) lanes &= (1u << (end - j)) - 1;
-        if (self && i >= j && i < j + lane_count) lanes &= ~(1u << (i - j));
-        found(j, lanes);
-      }
-    });
+struct MarkSources {
+  Span<const Index> cell_start;
+  Span<std::uint8_t> marked;
+  HOST_DEVICE void operator()(Index cell) const {
+    marked[cell] = cell_start[cell + 1] > cell_start[cell] ? 1 : 0;
   }
 };
 
-namespace {
-
-// Whether there are sources in a cell or in those up to `range` away.
-struct MarkOccupied {
+// Marks the cells up to `range` away along one axis from those that are marked.
+struct SpreadMarks {
   CellGrid grid;
-  Span<const Index> cell_start;
-  int range;
-  Span<std::uint8_t> occupied;
+  int axis, range;
+  Span<const std::uint8_t> from;
+  Span<std::uint8_t> to;
   HOST_DEVICE void operator()(Index cell) const {
-    bool any = false;
-    grid.for_runs_around(
-        cell, range, [&](Index first, Index last) { any = any || cell_start[last + 1] > cell_start[first]; });
-    occupied[cell] = any ? 1 : 0;
+    std::uint8_t any = 0;
+    grid.for_line_around(cell, axis, range, [&](Index other) { any |= from[other]; });
+    to[cell] = any;
   }
 };
 
@@ -96,30 +73,65 @@ NeighbourList::NeighbourList(Context& context, const char* name)
       length_(context, name),
       slice_length_(context, name),
       slice_(context, name),
+      used_(context, name, 1),
       entry_(context, name),
-      occupied_(context, name) {}
+      occupied_(context, name),
+      spare_(context, name) {}
 
 void NeighbourList::build(const SourceView& sources, Span<const Quad> targets, const PeriodicBox& box,
                           Real reach, Pairs pairs) {
   const bool self = pairs == Pairs::self;
-  // Most targets are far from any source of the other kind.
-  occupied_.resize(self ? 0 : sources.grid.cells());
-  if (!self) {
-    const int range = static_cast<int>(std::ceil(static_cast<double>(reach) / sources.grid.narrowest));
-    launch(context_, "occupied cells", sources.grid.cells(),
-           MarkOccupied{sources.grid, sources.cell_start, range, occupied_.span()});
-  }
+  const int range = static_cast<int>(std::ceil(static_cast<double>(reach) / sources.grid.narrowest));
+  occupied_.resize(0);
+  if (!self) mark_occupied(sources.grid, sources.cell_start, range);
   if (box.any())
-    search_and_store(Search<PeriodicBox>{sources, targets, box, reach, self, occupied_.span()});
+    search_and_store(Search<PeriodicBox>{sources, targets, box, reach, range, self, occupied_.span()});
   else
-    search_and_store(Search<OpenBox>{sources, targets, {}, reach, self, occupied_.span()});
+    search_and_store(Search<OpenBox>{sources, targets, {}, reach, range, self, occupied_.span()});
+}
+
+// Most targets are far from any source of the other kind.
+void NeighbourList::mark_occupied(const CellGrid& grid, Span<const Index> cell_start, int range) {
+  const Index cells = grid.cells();
+  occupied_.resize(cells), spare_.resize(cells);
+  launch(context_, "cells with sources", cells, MarkSources{cell_start, occupied_.span()});
+  for (int axis = 0; axis < 3; ++axis) {
+    launch(context_, "cells near sources", cells,
+           SpreadMarks{grid, axis, range, occupied_.span(), spare_.span()});
+    occupied_.swap(spare_);
+  }
 }
 
 template <class Box>
 void NeighbourList::search_and_store(const Search<Box>& search) {
+  length_.resize(search.targets.size);
+  if constexpr (slice_width == 1)
+    store_rows(search);
+  else
+    store_slices(search);
+}
+
+template <class Box>
+void NeighbourList::store_rows(const Search<Box>& search) {
+  using Fill = FillPiece<Box>;
+  const auto n = static_cast<Index>(search.targets.size);
+  const Index pieces = (n + Fill::targets_per_piece - 1) / Fill::targets_per_piece;
+  slice_.resize(n);
+  constexpr Offset margin_percent = 1;
+  for (;;) {
+    used_.upload({0});
+    launch(context_, "fill neighbours", pieces,
+           Fill{search, slice_.span(), length_.span(), entry_.span(), used_.span()});
+    context_.copy_to_host(&capacity_, used_.span().data, sizeof capacity_);
+    if (capacity_ <= entry_.size()) return;
+    entry_.resize(capacity_, margin_percent);
+  }
+}
+
+template <class Box>
+void NeighbourList::store_slices(const Search<Box>& search) {
   const auto n = static_cast<Index>(search.targets.size);
   const Index slices = (n + slice_width - 1) / slice_width;
-  length_.resize(n);
   slice_length_.resize(slices);
   slice_.resize(slices + 1);
   launch(context_, "count neighbours", n, CountRow<Box>{search, length_.span()});

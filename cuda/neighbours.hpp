@@ -50,12 +50,17 @@ class NeighbourList {
  private:
   template <class Box>
   void search_and_store(const Search<Box>&);
+  template <class Box>
+  void store_rows(const Search<Box>&);  // a row at a time, each in one piece
+  template <class Box>
+  void store_slices(const Search<Box>&);
+  void mark_occupied(const CellGrid&, Span<const Index> cell_start, int range);
 
   Context& context_;
   Buffer<Index> length_;
-  Buffer<Offset> slice_length_, slice_;
+  Buffer<Offset> slice_length_, slice_, used_;
   Buffer<Index> entry_;
-  Buffer<std::uint8_t> occupied_;  // of each cell
+  Buffer<std::uint8_t> occupied_, spare_;  // of each cell
   Offset capacity_ = 0;
 };
 

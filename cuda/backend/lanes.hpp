@@ -44,6 +44,13 @@ HOST_DEVICE Index* append(Index* to, const Index*, Index value, unsigned lanes) 
   if (lanes) *to = value;
   return lanes ? to + stride : to;
 }
+inline Index* append(Index* to, const Index* values, unsigned lanes) {
+  if (lanes) *to = *values;
+  return lanes ? to + 1 : to;
+}
+inline void append(Real* to, Real value, unsigned lanes) {
+  if (lanes) *to = value;
+}
 
 #else
 
@@ -199,6 +206,30 @@ inline Index* append(Index* to, const Index* end, Index value, unsigned lanes) {
 #endif
   for (; lanes && to < end; lanes &= lanes - 1) *to++ = value + __builtin_ctz(lanes);
   return to;
+}
+
+// The same for values[k], with room for lane_count numbers at `to`.
+inline Index* append(Index* to, const Index* values, unsigned lanes) {
+#if defined(__AVX512VL__)
+  if constexpr (lane_count == 8) {
+    const __m256i numbers = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), numbers));
+    return to + number_of(lanes);
+  }
+#endif
+  for (; lanes; lanes &= lanes - 1) *to++ = values[__builtin_ctz(lanes)];
+  return to;
+}
+inline void append(Real* to, Lanes values, unsigned lanes) {
+#if defined(__AVX512VL__)
+  if constexpr (sizeof(Real) == 4) {
+    _mm256_storeu_ps(reinterpret_cast<float*>(to),
+                     _mm256_maskz_compress_ps(static_cast<__mmask8>(lanes), (__m256)values.v));
+    return;
+  }
+#endif
+  for (; lanes; lanes &= lanes - 1) *to++ = values.v[__builtin_ctz(lanes)];
 }
 
 #endif

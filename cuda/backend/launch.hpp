@@ -2,6 +2,8 @@
 // A body is a small struct with `HOST_DEVICE void operator()(Index i) const` that writes only element i.
 #pragma once
 
+#include <type_traits>
+
 #include "backend/context.hpp"
 #include "backend/platform.hpp"
 
@@ -30,9 +32,20 @@ void launch(Context& context, const char* label, Index n, const Body& body) {
 
 #else
 
+// How many times in a row a thread runs the body: Body::grain, or a number that suits one particle a time.
+template <class Body, class = void>
+struct Grain {
+  static constexpr Index value = 256;
+};
+template <class Body>
+struct Grain<Body, std::void_t<decltype(Body::grain)>> {
+  static constexpr Index value = Body::grain;
+};
+
 template <class Body>
 void launch(Context&, const char*, Index n, const Body& body) {
-#pragma omp parallel for schedule(dynamic, 256) if (n > 512)
+  constexpr Index grain = Grain<Body>::value;
+#pragma omp parallel for schedule(dynamic, grain) if (n > 2 * grain)
   for (Index i = 0; i < n; ++i) body(i);
 }
 
