@@ -19,8 +19,8 @@ struct StartFromPredicted {
   Span<Quad> right_hand_side, residual;
   Span<double> squared;
   HOST_DEVICE void operator()(Index i) const {
-    const Vec3 b = xyz(right_hand_side[i]) - system.apply(i, predicted);
-    const Vec3 r = b - system.apply(i, increment);
+    const LinearSystem::Two product = system.apply(i, predicted, increment);
+    const Vec3 b = xyz(right_hand_side[i]) - product.u, r = b - product.v;
     right_hand_side[i] = quad(b, 0);
     residual[i] = quad(r, 0);
     squared[i] = dot(to_double(r), to_double(r));
