@@ -39,12 +39,12 @@ struct Diffusivity {
 
 }  // namespace
 
-double advance_particles(Context& context, FluidArrays& f, Span<const Quad> velocity,
-                         const Buffer<Quad>& reference, Buffer<Real>& scratch, double dt) {
+double advance_particles(Context& context, FluidArrays& f, SolvedVelocity solved,
+                         const Buffer<Quad>& reference, Buffer<Real>& scratch) {
   scratch.resize(f.count);
   launch(context, "advance", f.count,
-         AdvanceParticle{velocity, reference.span(), dt, f.position.span(), f.place.span(), f.motion.span(),
-                         scratch.span()});
+         AdvanceParticle{solved.velocity, reference.span(), solved.dt, f.position.span(), f.place.span(),
+                         f.motion.span(), scratch.span()});
   return std::sqrt(maximum(context, scratch.span(), 0));
 }
 

@@ -6,10 +6,15 @@
 
 namespace slagflow {
 
+struct SolvedVelocity {
+  Span<const Quad> velocity;  // [m/s]
+  double dt;                  // [s]
+};
+
 // v = the solved velocity, x += dt v (positions in fp64). Returns the largest distance [m] from `reference`,
 // the places at which the neighbour list was built; not-a-number when a velocity is.
-double advance_particles(Context&, FluidArrays&, Span<const Quad> velocity, const Buffer<Quad>& reference,
-                         Buffer<Real>& scratch, double dt);
+double advance_particles(Context&, FluidArrays&, SolvedVelocity solved, const Buffer<Quad>& reference,
+                         Buffer<Real>& scratch);
 
 // Largest speed [m/s].
 double largest_speed(Context&, const FluidArrays&, Buffer<Real>& scratch);

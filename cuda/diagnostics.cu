@@ -146,20 +146,20 @@ FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& fro
 
 }  // namespace
 
-void measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
-                    const SimulationSetup& setup, DiagnosticScratch& scratch, Totals& t) {
+Totals measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
+                      const SimulationSetup& setup, DiagnosticScratch& scratch) {
+  Totals t;
   const Index n = f.count;
   const auto position = f.position.span();
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
   const Vec3d origin = setup.domain.lower;
-  t.mass_in = 0;
   for (std::size_t k = 0; k < setup.fluids.size(); ++k)
     t.mass_in += total(c, scratch, n, IsFluid{kind, static_cast<int>(k)}) * particle_mass(setup, k);
   t.fronts.resize(setup.fronts.size());
   for (std::size_t k = 0; k < setup.fronts.size(); ++k)
     t.fronts[k] = measure_front(c, f, setup.fronts[k], origin, scratch);
-  if (n == 0) return;
+  if (n == 0) return t;
   t.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
   t.potential_energy =
       total(c, scratch, n,
@@ -171,6 +171,7 @@ void measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstants>
   t.max_speed = std::sqrt(largest(c, scratch, n, SpeedSquared{motion}));
   t.max_density_error = larger(0.0, largest(c, scratch, n, Compression{fluids, kind, motion, 1}));
   t.min_density_ratio = 1 - largest(c, scratch, n, Compression{fluids, kind, motion, -1});
+  return t;
 }
 
 Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,

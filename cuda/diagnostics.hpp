@@ -15,8 +15,8 @@ struct DiagnosticScratch {
 
 // Mass, energies, momenta, densities and fronts of the particles in the domain. Positions on the device are
 // relative to setup.domain.lower. Counts, the other masses and dissipation are the caller's.
-void measure_totals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
-                    DiagnosticScratch&, Totals&);
+Totals measure_totals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                      DiagnosticScratch&);
 
 // What the watch looks at.
 struct Vitals {

@@ -294,7 +294,7 @@ void Simulation::step() {
     s.dissipated += s.dt * dissipation(s.context, s.fluid, s.diagnostics);
     Section timer(s.context, "advance");
     s.displacement =
-        advance_particles(s.context, s.fluid, s.viscous.velocity(), s.list_places, s.scratch, s.dt);
+        advance_particles(s.context, s.fluid, {s.viscous.velocity(), s.dt}, s.list_places, s.scratch);
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
   s.time += s.dt;

@@ -34,7 +34,7 @@ double Simulation::neighbours_mean() const {
 
 Totals Simulation::totals() {
   State& s = *state_;
-  Totals t;
+  Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
   t.particles = s.fluid.count;
   t.mass_start = s.start_mass;
   t.dissipated_energy = s.dissipated;
@@ -43,11 +43,10 @@ Totals Simulation::totals() {
       t.departed[face] += s.departed[kind][face];
       t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
     }
-  measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics, t);
   // What left through the face beyond a front's plane has passed it.
   for (std::size_t k = 0; k < t.fronts.size(); ++k) {
     const FrontSetup& front = s.setup.fronts[k];
-    t.fronts[k].passed += t.departed[static_cast<std::size_t>(2 * front.axis + (front.sign > 0 ? 1 : 0))];
+    t.fronts[k].passed += t.departed[2 * static_cast<std::size_t>(front.axis) + (front.sign > 0 ? 1U : 0U)];
   }
   t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
   for (const BoxSetup& box : s.setup.boxes)

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -86,12 +87,13 @@ std::string read_text(const File& file, hid_t attribute, hid_t type) {
   if (H5Tis_variable_str(type) <= 0) {
     std::string text(H5Tget_size(type), '\0');
     file.check(H5Aread(attribute, type, text.data()), "read");
-    return text.c_str();
+    text.erase(std::find(text.begin(), text.end(), '\0'), text.end());
+    return text;
   }
   char* raw = nullptr;
   H5Tset_cset(memory, H5Tget_cset(type));
   file.check(H5Aread(attribute, memory, &raw), "read");
-  const std::string text = raw != nullptr ? raw : "";
+  std::string text = raw != nullptr ? raw : "";
   H5free_memory(raw);
   return text;
 }

@@ -42,12 +42,12 @@ void require_begins_with(const std::string& path, const std::string& header, con
 
 }  // namespace
 
-HistoryFile::HistoryFile(std::string path, std::vector<std::string> columns)
+HistoryFile::HistoryFile(std::string path, const std::vector<std::string>& columns)
     : path_(std::move(path)), columns_(columns.size()), file_(path_, std::ios::trunc) {
   put(header(columns));
 }
 
-HistoryFile::HistoryFile(std::string path, std::vector<std::string> columns, const HistoryEnd& end)
+HistoryFile::HistoryFile(std::string path, const std::vector<std::string>& columns, const HistoryEnd& end)
     : path_(std::move(path)), columns_(columns.size()), end_(end) {
   require_begins_with(path_, header(columns), end);
   std::error_code failed;

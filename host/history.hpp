@@ -20,10 +20,10 @@ struct HistoryEnd {
 class HistoryFile {
  public:
   // Begins a table, in place of any earlier one.
-  HistoryFile(std::string path, std::vector<std::string> columns);
+  HistoryFile(std::string path, const std::vector<std::string>& columns);
   // Goes on with a table behind `end`; what lies beyond is cut off. Throws Error, too, when the file is
   // shorter than that or has other columns.
-  HistoryFile(std::string path, std::vector<std::string> columns, const HistoryEnd& end);
+  HistoryFile(std::string path, const std::vector<std::string>& columns, const HistoryEnd& end);
 
   // One value for each column; numbers have 9 significant digits, not-a-number is an empty field.
   void write(const std::vector<double>& values);

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 namespace slagflow {
@@ -13,7 +14,7 @@ constexpr std::chrono::milliseconds between_status{500};
 constexpr std::chrono::seconds between_lines{30};
 
 std::string duration(double seconds) {
-  const auto s = static_cast<long>(seconds + 0.5);
+  const auto s = std::lround(seconds);
   std::array<char, 48> text{};
   if (s >= 3600) {
     std::snprintf(text.data(), text.size(), "%ld:%02ld:%02ld h", s / 3600, s / 60 % 60, s % 60);

@@ -80,7 +80,7 @@ std::string require_output(const RheometryOptions& options) {
   std::filesystem::path path(options.output);
   if (path.extension() != ".toml")
     throw InputError("output " + options.output + ": allowed: a name that ends in .toml");
-  const std::string curves = path.replace_extension(".csv").string();
+  std::string curves = path.replace_extension(".csv").string();
   std::error_code ignored;
   if (std::filesystem::equivalent(curves, options.file, ignored))
     throw InputError("output " + options.output + ": its curves would replace the measurements in " + curves +

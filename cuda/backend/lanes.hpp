@@ -63,13 +63,13 @@ inline constexpr int lane_count = lane_bytes / static_cast<int>(sizeof(Real));
 
 struct LaneMask {
   using Integer = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
-  typedef Integer Vector __attribute__((vector_size(lane_bytes)));
+  using Vector __attribute__((vector_size(lane_bytes))) = Integer;
   Vector v;
   friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
 };
 
 struct Lanes {
-  typedef Real Vector __attribute__((vector_size(lane_bytes)));
+  using Vector __attribute__((vector_size(lane_bytes))) = Real;
   Vector v{};
 
   Lanes() = default;

@@ -28,7 +28,7 @@ class Advance : public testing::Test {
 
 TEST_F(Advance, MovesByVelocityTimesStepInDoublePrecision) {
   const double step = 1e-9;  // single precision would not see it
-  advance_particles(context_, fluid_, velocity_.span(), reference_, scratch_, step);
+  advance_particles(context_, fluid_, {velocity_.span(), step}, reference_, scratch_);
   const auto position = download(context_, fluid_.position.span());
   EXPECT_EQ(position[0], (Vec3d{1 + step, 2, 3}));
   EXPECT_EQ(position[1], (Vec3d{0.1, 0.2 + 3 * step, 0.3 + 4 * step}));
@@ -36,7 +36,7 @@ TEST_F(Advance, MovesByVelocityTimesStepInDoublePrecision) {
 }
 
 TEST_F(Advance, KeepsVolumeAndDensityAndRoundsThePlace) {
-  advance_particles(context_, fluid_, velocity_.span(), reference_, scratch_, 0.25);
+  advance_particles(context_, fluid_, {velocity_.span(), 0.25}, reference_, scratch_);
   const auto place = download(context_, fluid_.place.span());
   const auto motion = download(context_, fluid_.motion.span());
   EXPECT_EQ(xyz(place[0]), (Vec3{Real(1.25), 2, 3}));
@@ -46,19 +46,20 @@ TEST_F(Advance, KeepsVolumeAndDensityAndRoundsThePlace) {
 }
 
 TEST_F(Advance, ReportsTheLargestDisplacementAndSpeed) {
-  EXPECT_NEAR(advance_particles(context_, fluid_, velocity_.span(), reference_, scratch_, 0.25), 1.25, 1e-6);
-  EXPECT_NEAR(advance_particles(context_, fluid_, velocity_.span(), reference_, scratch_, 0.25), 2.5, 1e-6);
+  EXPECT_NEAR(advance_particles(context_, fluid_, {velocity_.span(), 0.25}, reference_, scratch_), 1.25,
+              1e-6);
+  EXPECT_NEAR(advance_particles(context_, fluid_, {velocity_.span(), 0.25}, reference_, scratch_), 2.5, 1e-6);
   EXPECT_EQ(largest_speed(context_, fluid_, scratch_), 5);
 }
 
 TEST_F(Advance, NotANumberIsReported) {
   velocity_.upload({{1, 0, 0, 0}, {0, static_cast<Real>(std::nan("")), 0, 0}, {0, 0, 0, 0}});
-  EXPECT_TRUE(std::isnan(advance_particles(context_, fluid_, velocity_.span(), reference_, scratch_, 0.1)));
+  EXPECT_TRUE(std::isnan(advance_particles(context_, fluid_, {velocity_.span(), 0.1}, reference_, scratch_)));
 }
 
 TEST_F(Advance, OfNothingIsZero) {
   fluid_.resize(0);
-  EXPECT_EQ(advance_particles(context_, fluid_, velocity_.span(), reference_, scratch_, 0.1), 0);
+  EXPECT_EQ(advance_particles(context_, fluid_, {velocity_.span(), 0.1}, reference_, scratch_), 0);
   EXPECT_EQ(largest_speed(context_, fluid_, scratch_), 0);
 }
 
