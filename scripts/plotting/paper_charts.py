@@ -32,6 +32,7 @@ class Point:
         number = lambda name: float(line.get(name) or "nan")
         self.viscosity, self.density = number("fluid.slurry.plastic_viscosity"), number("fluid.slurry.density")
         self.yield_stress, self.spacing = number("fluid.slurry.yield_stress"), number("spacing")
+        self.end = number("simulated_time")
         self.tan, self.time = number("jet.tan_theta"), number("jet.travelling_time")
         self.front, self.flow_class = number("jet.front_position"), line.get("jet.class", "")
 
@@ -113,14 +114,15 @@ def draw_jets(points, path):
     spacing = 1e3 * points[0].spacing
     figure, axes = new_chart(f"Jet angle at the bottom (Fig. 8), {spacing:.3g} mm")
     wall, jet = critical_n(points)
-    if wall and jet and wall < jet:
-        axes.axvspan(wall, jet, color="0.9", label=f"wall flow up to N = {wall:.0f}, free jet from {jet:.0f}")
+    if wall and jet:
+        axes.axvspan(*sorted((wall, jet)), color="0.88", label=f"wall flows up to N = {wall:.0f}, free jets from {jet:.0f} on")
     axes.axvline(PAPER_CRITICAL, color="0.4", linestyle="--", linewidth=1, label=f"the paper's critical N = {PAPER_CRITICAL}")
     seen = set()
     for p in points:
         if math.isfinite(p.tan):
             mark(axes, p, p.n, p.tan, seen)
-            axes.annotate(f"{p.phi:g}", (p.n, p.tan), (4, 4), textcoords="offset points", fontsize=6, color="0.4")
+            axes.annotate(f"{p.phi:g}", (p.n, p.tan), (4, -8 if p.assumption == "tenfold" else 4), textcoords="offset points",
+                          fontsize=6, color="0.4")
     axes.set(xlabel=r"$N = \rho L \sqrt{gH}/\eta$", ylabel=r"$\tan\theta$", xscale="log", ylim=(0, None))
     save(figure, axes, path, loc="upper left")
 
@@ -140,8 +142,10 @@ def draw_times(points, path):
             mark(axes, p, p.phi, p.time, seen)
     axes.set(xlabel=r"solid fraction $\varphi$", ylabel="travelling time  [s]", yscale="log")
     lost = [p for p in points if not math.isfinite(p.time)]
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high * (1.9 if lost else 1))
     for p in lost:
-        axes.annotate("not arrived", (p.phi, axes.get_ylim()[1]), (0, -3), textcoords="offset points", fontsize=6,
+        axes.annotate(f"not after {p.end:.3g} s", (p.phi, axes.get_ylim()[1]), (0, -3), textcoords="offset points", fontsize=6,
                       color=COLOURS[p.oil], ha="center", va="top", rotation=90)
     axes.yaxis.set_major_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
     axes.yaxis.set_minor_formatter(matplotlib.ticker.FormatStrFormatter("%g"))
