@@ -42,7 +42,7 @@ TEST(Cases, ParticleCountsAreAsTheirCommentsSay) {
       {"slag", 12500},           {"slurry_a_phi50", 12500},    {"oil_a", 12500},
       {"oil_b", 12500},          {"hydrostatic_tank", 1600},   {"hydrostatic_bingham", 1600},
       {"column_collapse", 6400}, {"spinning_block", 1000},     {"l_box", 2592},
-      {"mini_slump", 4664}};
+      {"tailings_dam", 5260},    {"mini_slump", 4664}};
   for (const auto& [name, count] : counts)
     EXPECT_EQ(build_setup(load_case(path_of(name))).setup.particles.position.size(), count) << name;
 }
