@@ -33,6 +33,7 @@ struct Approach {
   CellGrid grid;
   Span<const Quad> displacement;
   Span<const Index> wall_start;
+  Span<const Quad> wall_displacement;  // empty while all walls are at rest
   Real fluid_skin, wall_skin;
   Span<Real> excess;
 
@@ -42,11 +43,12 @@ struct Approach {
     if (own.w >= 0) {
       const int x = cell % grid.count[0], y = cell / grid.count[0] % grid.count[1],
                 z = cell / grid.count[0] / grid.count[1];
-      const Real moved = norm(xyz(own)) + own.w;
       grid.for_cells_around(x, y, z, 2, [&](Index other) {
         const Quad there = displacement[other];
         if (there.w >= 0) worst = larger(worst, norm(xyz(own) - xyz(there)) + own.w + there.w - fluid_skin);
-        if (wall_start[other + 1] > wall_start[other]) worst = larger(worst, moved - wall_skin);
+        if (wall_start[other + 1] == wall_start[other]) return;
+        const Quad wall = wall_displacement.size > 0 ? wall_displacement[other] : Quad{};
+        worst = larger(worst, norm(xyz(own) - xyz(wall)) + own.w + wall.w - wall_skin);
       });
     }
     excess[cell] = worst;
@@ -56,18 +58,31 @@ struct Approach {
 }  // namespace
 
 ListAge::ListAge(Context& context)
-    : context_(context), displacement_(context, "cell displacements"), excess_(context, "cell approaches") {}
+    : context_(context),
+      displacement_(context, "cell displacements"),
+      wall_displacement_(context, "cell displacements of walls"),
+      excess_(context, "cell approaches") {}
 
-bool ListAge::lists_hold(const SourceView& sources, const SourceView& walls, Span<const Quad> start,
-                         const ListReach& reach, double largest_displacement) {
-  if (largest_displacement <= smaller(0.5 * reach.fluid_skin, reach.wall_skin)) return true;
-  if (!(largest_displacement <= reach.width - 0.5 * reach.support)) return false;
-  const Index cells = sources.grid.cells();
-  displacement_.resize(cells), excess_.resize(cells);
-  launch(context_, "cell displacement", cells, CellDisplacement{sources, start, displacement_.span()});
+void ListAge::find_displacements(const MovedParticles& particles, Buffer<Quad>& displacement) {
+  const Index cells = particles.now.grid.cells();
+  displacement.resize(cells);
+  launch(context_, "cell displacement", cells,
+         CellDisplacement{particles.now, particles.start, displacement.span()});
+}
+
+bool ListAge::lists_hold(const MovedParticles& fluid, const MovedParticles& walls, const ListReach& reach) {
+  const double fluid_moved = fluid.largest_displacement, walls_moved = walls.largest_displacement;
+  if (fluid_moved <= 0.5 * reach.fluid_skin && fluid_moved + walls_moved <= reach.wall_skin) return true;
+  const double farthest = reach.width - 0.5 * reach.support;
+  if (!(fluid_moved <= farthest && walls_moved <= farthest)) return false;
+  find_displacements(fluid, displacement_);
+  if (walls_moved > 0) find_displacements(walls, wall_displacement_);
+  const Index cells = fluid.now.grid.cells();
+  excess_.resize(cells);
   launch(context_, "approach", cells,
-         Approach{sources.grid, displacement_.span(), walls.cell_start, static_cast<Real>(reach.fluid_skin),
-                  static_cast<Real>(reach.wall_skin), excess_.span()});
+         Approach{fluid.now.grid, displacement_.span(), walls.now.cell_start,
+                  walls_moved > 0 ? wall_displacement_.span() : Span<const Quad>{},
+                  static_cast<Real>(reach.fluid_skin), static_cast<Real>(reach.wall_skin), excess_.span()});
   return maximum(context_, excess_.span(), -1) <= 0;
 }
 

@@ -15,25 +15,30 @@ struct ListReach {
   double width = 0;       // narrowest width of a cell [m]
 };
 
-// `sources`: the fluid as it was sorted, with its places now; `walls`: the walls, at rest; `start`: the
-// places when the lists were built.
-//
+// Particles as they were sorted when the lists were built, their places then and now.
+struct MovedParticles {
+  SourceView now;
+  Span<const Quad> start;           // places when the lists were built; not needed of particles at rest
+  double largest_displacement = 0;  // of any of them since [m]; 0: all are at rest
+};
+
 // With D_C the mean displacement in a cell C and e_C the largest deviation from it, two particles in cells C,
 // C' approached each other by at most |D_C - D_C'| + e_C + e_C'. The lists hold while this is at most the
-// skin for all cells that are at most two apart (with D = 0 for a wall), and while no particle moved farther
-// than width - h/2, which keeps particles in cells further apart out of reach.
+// skin for all cells that are at most two apart, the walls having a D and e of their own, and while no
+// particle moved farther than width - h/2, which keeps particles in cells further apart out of reach.
 class ListAge {
  public:
   explicit ListAge(Context&);
 
-  // `largest_displacement`: of any fluid particle since the lists were built [m].
-  bool lists_hold(const SourceView& sources, const SourceView& walls, Span<const Quad> start,
-                  const ListReach&, double largest_displacement);
+  bool lists_hold(const MovedParticles& fluid, const MovedParticles& walls, const ListReach&);
 
  private:
+  void find_displacements(const MovedParticles&, Buffer<Quad>& displacement);
+
   Context& context_;
-  Buffer<Quad> displacement_;  // of each cell: xyz mean, w largest deviation, negative in an empty cell
-  Buffer<Real> excess_;        // approach beyond the skin, of each cell
+  // Of each cell: xyz mean, w largest deviation, negative in an empty cell.
+  Buffer<Quad> displacement_, wall_displacement_;
+  Buffer<Real> excess_;  // approach beyond the skin, of each cell
 };
 
 }  // namespace slagflow

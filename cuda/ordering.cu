@@ -54,6 +54,16 @@ struct PlaceKey {
   }
 };
 
+struct WallKey {
+  PlaceKey by_place;
+  Span<double> vanished;
+  HOST_DEVICE void operator()(Index i) const {
+    by_place(i);
+    vanished[i] = by_place.place[i].w > 0 ? 1 : 0;
+    if (vanished[i] > 0) by_place.key[i] = departed_key;
+  }
+};
+
 template <class T>
 struct Gather {
   Span<const Index> order;
@@ -157,9 +167,10 @@ void Ordering::find_cells(const FluidArrays& f) {
 
 void Ordering::sort(WallArrays& w) {
   const Index n = w.count;
-  key_.resize(n), order_.resize(n);
+  key_.resize(n), order_.resize(n), flag_.resize(n);
   launch(context_, "wall cell keys", n,
-         PlaceKey{grid_, w.place.span(), w.id.span(), key_.span(), order_.span()});
+         WallKey{{grid_, w.place.span(), w.id.span(), key_.span(), order_.span()}, flag_.span()});
+  const auto left = n - static_cast<Index>(sum(context_, flag_.span()));
   sort_keys(n);
   reorder(w.place, spare_quad_, n);
   reorder(w.normal, spare_quad_, n);
@@ -167,7 +178,8 @@ void Ordering::sort(WallArrays& w) {
   reorder(w.velocity, spare_quad_, n);
   reorder(w.id, spare_index_, n);
   reorder(w.pressure, spare_real_, n);
-  wall_cells_.find(context_, grid_, key_.span(), n);
+  w.resize(left);
+  wall_cells_.find(context_, grid_, key_.span(), left);
 }
 
 }  // namespace slagflow

@@ -23,6 +23,7 @@ class Ordering {
   // outside of the domain and adds them to `departed` (one entry per fluid). Derived arrays (state, pressure,
   // shear rate) keep their values.
   void sort(FluidArrays&, DepartureCounts& departed);
+  // Drops the particles of walls that have vanished.
   void sort(WallArrays&);
 
   // Finds the cells of particles that are in order already.

@@ -51,7 +51,8 @@ struct WallArrays {
         id(c, "wall ids") {}
 
   Index count = 0;
-  Buffer<Quad> place;     // xyz: position [m] relative to the domain's lower corner
+  Buffer<Quad>
+      place;  // xyz: position [m] relative to the domain's lower corner, w: 1 in a wall that vanished
   Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
   Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
   Buffer<Quad> velocity;  // xyz: velocity of the surface [m/s], w: slip length [m], 0 no slip, < 0 free slip

@@ -1,5 +1,6 @@
 #include "backend/launch.hpp"
 #include "lane_math.hpp"
+#include "pair_pressure.hpp"
 #include "predictor.hpp"
 #include "smoothing/lucy.hpp"
 
@@ -14,17 +15,6 @@ struct PredictAndAssemble {
   Box box;
   Real dt, implicit_dt;  // implicit_dt = theta dt
   PredictorOutput out;
-
-  // Pressure part of a pair; both signs of pressure keep a pair apart when it is closer than the spacing.
-  template <class T>  // Real or Lanes
-  HOST_DEVICE T pressure_term(T own, T other, T r) const {
-    const T sum = own + other;
-    const auto close = r < T(c.flow.spacing);
-    if (!bits(close)) return sum;
-    const T ratio = smoothing.value(r) * c.flow.pairing_reference;
-    const T apart = c.flow.anti_pairing * (square(square(ratio)) - Real(1));
-    return sum + select(close, apart * (magnitude(own) + magnitude(other)), T(0));
-  }
 
   // w d_k^2 along axis k, or w |d|^2.
   template <class T>
@@ -61,7 +51,7 @@ struct PredictAndAssemble {
       if (bits(near)) {
         const QuadLanes other = gather(c.fluid.state, j);
         const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
-        acceleration -= (other.w * f * pressure_term(Lanes(own.x), other.x, r)) * d;
+        acceleration -= (other.w * f * pair_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(i, Lanes(own.y), other.y, j);
         weight = (factor * (own.z * other.z) * f) * mean / (r2 + c.flow.softening);
@@ -89,7 +79,7 @@ struct PredictAndAssemble {
       const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes density = rest_density + pressure / c.flow.sound_speed_squared;
-      push += (f * pressure_term(Lanes(own.x), pressure / square(density), r)) * d;
+      push += (f * pair_pressure(c.flow, smoothing, Lanes(own.x), pressure / square(density), r)) * d;
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);

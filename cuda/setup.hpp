@@ -8,6 +8,7 @@
 
 #include "math.hpp"
 #include "models.hpp"
+#include "walls/motion.hpp"
 
 namespace slagflow {
 
@@ -54,6 +55,7 @@ struct WallBody {
   double slip_length = 0;  // [m], of partial slip
   // Of the material, along the surface; the shape stays where it is, as in belts and turning cylinders.
   RigidVelocity surface{};
+  WallMotion motion{};
 };
 
 enum class Departure { remove, stop };  // what happens to a particle that leaves through a face
@@ -148,6 +150,7 @@ struct SimulationSetup {
   std::vector<FrontSetup> planes;  // through which the flow is measured, along their sign
   std::vector<BoxSetup> boxes;
   std::vector<LineSetup> lines;
+  bool measure_walls = false;  // the forces on walls; they are known without it where walls move
 };
 
 }  // namespace slagflow

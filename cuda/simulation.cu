@@ -30,16 +30,6 @@ CellGrid cover_domain(const SimulationSetup& s) {
   return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
 }
 
-// What WallArrays::velocity holds. The surface's velocity is that of the point of the surface above the wall
-// particle, and only what lies along the surface: a wall that keeps its shape does not move the fluid out of
-// its way.
-Quad wall_velocity(const WallBody& body, Vec3d position, Vec3d normal, double depth) {
-  Vec3d v = body.surface.at(position + depth * normal);
-  v -= dot(v, normal) * normal;
-  const double slip = body.slip == WallSlip::free_slip ? -1 : body.slip_length;
-  return quad(to_real(v), static_cast<Real>(slip));
-}
-
 }  // namespace
 
 Simulation::State::State(const SimulationSetup& s)
@@ -50,21 +40,24 @@ Simulation::State::State(const SimulationSetup& s)
       fluids(context, "fluid constants"),
       fluid(context),
       wall(context),
+      walls(context),
       ordering(context, extent(s), s.domain.periodic, cover_domain(s)),
       fluid_list(context, "fluid neighbours"),
       wall_list(context, "wall neighbours"),
       wall_to_fluid(context, "fluid neighbours of walls"),
       list_age(context),
+      wall_forces(context),
       list_places(context, "places of the list"),
+      wall_list_places(context, "wall places of the list"),
       scratch(context, "scratch"),
       viscous(context, s.numerics),
       diagnostics(context),
       watch(context, setup),
       planes(s) {
   departed.resize(s.fluids.size());
+  dt = full_dt = acoustic_time_step(setup);
   upload_fluid();
   upload_walls();
-  dt = full_dt = acoustic_time_step(setup);
   planes.begin(context, fluid, diagnostics);
   list_places.copy_from(fluid.place);
   rebuild();
@@ -106,25 +99,12 @@ void Simulation::State::upload_fluid() {
 }
 
 void Simulation::State::upload_walls() {
-  const auto& w = setup.walls;
-  const std::size_t n = w.position.size();
-  std::vector<Quad> place(n), normal(n), back(n), velocity(n);
-  std::vector<Index> id(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    place[i] = quad(to_real(w.position[i] - setup.domain.lower), 0);
-    normal[i] = quad(to_real(w.normal[i]), static_cast<Real>(w.depth[i]));
-    if (!w.back_depth.empty()) back[i] = quad(to_real(w.back_normal[i]), static_cast<Real>(w.back_depth[i]));
-    velocity[i] = wall_velocity(setup.bodies[w.body[i]], w.position[i], w.normal[i], w.depth[i]);
-    wall_speed = larger(wall_speed, static_cast<double>(norm(xyz(velocity[i]))));
-    id[i] = static_cast<Index>(i);
-  }
-  wall.resize(static_cast<Index>(n));
-  wall.place.upload(place), wall.normal.upload(normal), wall.back.upload(back);
-  wall.velocity.upload(velocity), wall.id.upload(id);
-  wall.pressure.upload(std::vector<Real>(n));
-  ordering.sort(wall);
+  walls.upload(setup, wall);
+  walls.place(time, dt, wall);
+  if (knows_wall_forces()) wall_forces.start(setup.walls.body);
   setup.walls.normal = setup.walls.back_normal = {};
   setup.walls.depth = setup.walls.back_depth = {};
+  ordering.sort(wall);
 }
 
 void Simulation::State::rebuild() {
@@ -132,8 +112,11 @@ void Simulation::State::rebuild() {
   planes.advance(context, fluid, list_places.span(), diagnostics);
   ordering.sort(fluid, departed);
   check_departure();
+  if (walls.any()) ordering.sort(wall);
   build_lists();
   list_places.copy_from(fluid.place);
+  if (walls.any()) wall_list_places.copy_from(wall.place);
+  list_time = time;
   displacement = 0;
   ++builds;
 }
@@ -146,6 +129,14 @@ void Simulation::State::build_lists() {
   wall_list.build(ordering.wall_sources(wall), fluid.place.span(), box, wall_reach,
                   NeighbourList::Pairs::other);
   wall_to_fluid.build(sources, wall.place.span(), box, wall_reach, NeighbourList::Pairs::other);
+}
+
+// The walls as they were when the lists were built, in the same order.
+void Simulation::State::restore_walls() {
+  if (!walls.any()) return;
+  walls.place(list_time, dt, wall);
+  ordering.sort(wall);
+  wall_list_places.copy_from(wall.place);
 }
 
 // The lists as they were: from the places at which they were built, in the order that the particles still
@@ -168,8 +159,11 @@ void Simulation::State::check_departure() const {
 
 bool Simulation::State::lists_hold() {
   Section timer(context, "list age");
-  return list_age.lists_hold(ordering.fluid_sources(fluid), ordering.wall_sources(wall), list_places.span(),
-                             reach, displacement);
+  if (walls.vanishes(list_time, time)) return false;
+  return list_age.lists_hold(
+      {ordering.fluid_sources(fluid), list_places.span(), displacement},
+      {ordering.wall_sources(wall), wall_list_places.span(), walls.largest_displacement(list_time, time)},
+      reach);
 }
 
 PairContext Simulation::State::pairs() const {
@@ -180,7 +174,7 @@ PairContext Simulation::State::pairs() const {
 // a ten-thousandth of the largest speed, of the fluid or a wall, stands for it.
 double Simulation::State::kick() {
   const double g = norm(setup.gravity + setup.body_acceleration);
-  return g > 0 ? g * dt : 1e-4 * larger(wall_speed, largest_speed(context, fluid, scratch));
+  return g > 0 ? g * dt : 1e-4 * larger(walls.largest_speed(), largest_speed(context, fluid, scratch));
 }
 
 // The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5).
@@ -217,6 +211,7 @@ void Simulation::State::solve() {
     ++solver.retried;
     dt /= 2;
     density_ahead += dt;
+    walls.place(time, dt, wall);
     viscous.forget(fluid.increment);
     result = try_solve();
   }
@@ -233,12 +228,24 @@ void Simulation::State::give_up(const SolveResult& result) {
   throw Error(message.str());
 }
 
+bool Simulation::State::knows_wall_forces() const {
+  return setup.measure_walls || walls.any() || walls.largest_speed() > 0;
+}
+
+void Simulation::State::add_wall_forces() {
+  if (!knows_wall_forces()) return;
+  Section timer(context, "wall forces");
+  wall_forces.add(pairs(), wall_to_fluid.view(), wall,
+                  {dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid)});
+}
+
 void Simulation::State::look() {
   Section timer(context, "watch");
   std::int64_t left = 0;
   for (const auto& by_face : departed)
     for (const std::int64_t count : by_face) left += count;
-  watch.look(fluid, fluids.span(), {time, dt, dissipated, steps, left}, diagnostics);
+  const double work = knows_wall_forces() ? wall_forces.work() : 0;
+  watch.look(fluid, fluids.span(), {time, dt, dissipated, work, steps, left}, diagnostics);
 }
 
 // Names the first particle that is not a number: by its motion, or else by its density, which follows within
@@ -272,14 +279,16 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 
 void Simulation::step() {
   State& s = *state_;
+  s.walls.place(s.time, s.dt, s.wall);
   if (!s.lists_hold()) {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
-    const double speed = largest_speed(s.context, s.fluid, s.scratch);
+    const double speed = larger(largest_speed(s.context, s.fluid, s.scratch), s.walls.largest_speed());
     s.full_dt = smaller(acoustic_time_step(s.setup),
                         0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
   s.choose_time_step();
+  s.walls.place(s.time, s.dt, s.wall);  // with the velocities of this step
   if (s.fluid.count > 0) {
     {
       Section timer(s.context, "density and shear rate");
@@ -291,6 +300,7 @@ void Simulation::step() {
       extrapolate_wall_pressure(s.context, s.pairs(), s.wall_to_fluid.view(), s.wall);
     }
     s.solve();
+    s.add_wall_forces();
     s.dissipated += s.dt * dissipation(s.context, s.fluid, s.diagnostics);
     Section timer(s.context, "advance");
     s.displacement =

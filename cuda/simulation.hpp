@@ -30,6 +30,7 @@ struct FluidSnapshot {
 
 struct WallSnapshot {
   double time = 0;
+  bool moves = false;              // whether positions change, or particles vanish, during the run
   std::vector<Vec3d> position;     // [m]
   std::vector<float> pressure;     // [Pa]
   std::vector<std::uint8_t> body;  // index of the body
@@ -60,6 +61,14 @@ struct ProfilePoint {
   double fill = 0;        // sum of V_j W: 1 inside of the fluid
 };
 
+// What the fluid did to a wall since the start, as integrals over time: forces [N s], torques [N m s] about
+// the origin; and the work the wall did on the fluid [J].
+struct WallLoad {
+  Vec3d pressure, viscous;
+  Vec3d pressure_torque, viscous_torque;
+  double work = 0;
+};
+
 struct Totals {
   std::int64_t particles = 0;              // fluid particles in the domain
   std::array<std::int64_t, 6> departed{};  // through -x +x -y +y -z +z
@@ -77,6 +86,7 @@ struct Totals {
   std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
   std::vector<PlaneState> planes;   // one per SimulationSetup::planes
   std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
+  std::vector<WallLoad> walls;      // one per SimulationSetup::bodies where SimulationSetup::measure_walls
 };
 
 struct SolveReport {

@@ -43,6 +43,13 @@ Totals Simulation::totals() {
       t.departed[face] += s.departed[kind][face];
       t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
     }
+  if (s.setup.measure_walls)
+    for (std::size_t body = 0; body < s.setup.bodies.size(); ++body) {
+      t.walls.push_back(s.wall_forces.load(body));
+      WallLoad& load = t.walls.back();  // torques about the lower corner become those about the origin
+      load.pressure_torque += cross(s.setup.domain.lower, load.pressure);
+      load.viscous_torque += cross(s.setup.domain.lower, load.viscous);
+    }
   // What left through the face beyond a front's plane has passed it.
   for (std::size_t k = 0; k < t.fronts.size(); ++k) {
     const FrontSetup& front = s.setup.fronts[k];
@@ -102,12 +109,18 @@ void Simulation::read(WallSnapshot& out) {
   State& s = *state_;
   const auto id = on_host(s.wall.id);
   const auto pressure = on_host(s.wall.pressure);
-  out.time = s.time;
-  out.position = s.setup.walls.position;
-  out.body = s.setup.walls.body;
-  out.pressure.resize(id.size());
+  std::vector<float> by_id(s.setup.walls.body.size());
   for (std::size_t i = 0; i < id.size(); ++i)
-    out.pressure[static_cast<std::size_t>(id[i])] = static_cast<float>(pressure[i]);
+    by_id[static_cast<std::size_t>(id[i])] = static_cast<float>(pressure[i]);
+  out.time = s.time;
+  out.moves = s.walls.any();
+  out.position.clear(), out.pressure.clear(), out.body.clear();
+  for (std::size_t k = 0; k < by_id.size(); ++k) {
+    const std::uint8_t body = s.setup.walls.body[k];
+    if (s.walls.removed(body, s.time)) continue;
+    out.position.push_back(s.walls.position_at(s.setup.walls.position[k], body, s.time));
+    out.pressure.push_back(by_id[k]), out.body.push_back(body);
+  }
 }
 
 }  // namespace slagflow

@@ -12,7 +12,7 @@ namespace {
 
 // Numbers that are not particle arrays.
 struct SavedNumbers {
-  double time, dt, full_dt, density_ahead, displacement, dissipated;
+  double time, dt, full_dt, density_ahead, displacement, dissipated, list_time;
   std::int64_t steps, builds;
   std::int64_t solver_steps, solver_iterations, solver_retried;
   double worst_residual, residual, velocity_error, lowest_energy;
@@ -70,14 +70,15 @@ class Restorer {
   const SavedState& state_;
 };
 
-template <class Visitor>
-void visit_arrays(Visitor& v, FluidArrays& f, WallArrays& w, Buffer<Quad>& list_places,
-                  DepartureCounts& departed, std::vector<PlaneCounters::Record>& planes) {
+template <class Visitor, class State>
+void visit_arrays(Visitor& v, State& s) {
+  FluidArrays& f = s.fluid;
   v.array("position", f.position), v.array("place", f.place), v.array("motion", f.motion);
   v.array("increment", f.increment), v.array("id", f.id), v.array("fluid", f.fluid);
   v.array("state", f.state), v.array("pressure", f.pressure), v.array("shear_rate", f.shear_rate);
-  v.array("wall_pressure", w.pressure), v.array("list_places", list_places);
-  v.values("departed", departed), v.values("planes", planes);
+  v.array("wall_pressure", s.wall.pressure), v.array("wall_impulse", s.wall_forces.impulses());
+  v.array("list_places", s.list_places);
+  v.values("departed", s.departed), v.values("planes", s.planes.records);
 }
 
 // What indices into other arrays are made of, and what the loop over the steps counts on. Anything else that
@@ -85,8 +86,8 @@ void visit_arrays(Visitor& v, FluidArrays& f, WallArrays& w, Buffer<Quad>& list_
 void require_possible(const SavedNumbers& v) {
   const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
                         v.full_dt > 0 && std::isfinite(v.full_dt) && std::isfinite(v.density_ahead) &&
-                        std::isfinite(v.displacement) && std::isfinite(v.dissipated) && v.steps >= 0 &&
-                        v.builds >= 0 && v.solver_steps >= 0;
+                        v.list_time >= 0 && v.list_time <= v.time && std::isfinite(v.displacement) &&
+                        std::isfinite(v.dissipated) && v.steps >= 0 && v.builds >= 0 && v.solver_steps >= 0;
   if (!possible) throw Error("checkpoint: its numbers are not those of a run");
 }
 
@@ -113,12 +114,27 @@ SavedState Simulation::save() const {
   State& s = *state_;
   SavedState result;
   Saver saver(result);
-  visit_arrays(saver, s.fluid, s.wall, s.list_places, s.departed, s.planes.records);
-  std::vector<SavedNumbers> numbers{{s.time, s.dt, s.full_dt, s.density_ahead, s.displacement, s.dissipated,
-                                     s.steps, s.builds, s.solver.steps, s.solver.iterations, s.solver.retried,
-                                     s.solver.worst_residual, s.report.residual, s.report.velocity_error,
-                                     s.watch.lowest_energy, s.solver.max_iterations, s.report.iterations,
-                                     s.report.converged ? 1 : 0, static_cast<std::int32_t>(sizeof(Real))}};
+  visit_arrays(saver, s);
+  std::vector<SavedNumbers> numbers{{s.time,
+                                     s.dt,
+                                     s.full_dt,
+                                     s.density_ahead,
+                                     s.displacement,
+                                     s.dissipated,
+                                     s.list_time,
+                                     s.steps,
+                                     s.builds,
+                                     s.solver.steps,
+                                     s.solver.iterations,
+                                     s.solver.retried,
+                                     s.solver.worst_residual,
+                                     s.report.residual,
+                                     s.report.velocity_error,
+                                     s.watch.lowest_energy,
+                                     s.solver.max_iterations,
+                                     s.report.iterations,
+                                     s.report.converged ? 1 : 0,
+                                     static_cast<std::int32_t>(sizeof(Real))}};
   saver.values("numbers", numbers);
   return result;
 }
@@ -131,22 +147,24 @@ void Simulation::restore(const SavedState& saved) {
   if (numbers.size() != 1 || numbers[0].real_size != static_cast<std::int32_t>(sizeof(Real)))
     throw Error("checkpoint: it was written by a build of another precision");
   const std::size_t kinds = s.departed.size();
-  const Offset walls = s.wall.pressure.size();
+  const SavedNumbers& v = numbers[0];
+  require_possible(v);
+  s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.density_ahead = v.density_ahead;
+  s.displacement = v.displacement, s.dissipated = v.dissipated, s.list_time = v.list_time;
+  s.restore_walls();
+  const Offset walls = s.wall.pressure.size(), impulses = s.wall_forces.impulses().size();
   const std::size_t planes = s.planes.records.size();
-  visit_arrays(restorer, s.fluid, s.wall, s.list_places, s.departed, s.planes.records);
+  visit_arrays(restorer, s);
   const Offset n = s.fluid.id.size();
   const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
                     s.fluid.increment.size() == n && s.fluid.fluid.size() == n && s.fluid.state.size() == n &&
                     s.fluid.pressure.size() == n && s.fluid.shear_rate.size() == n &&
                     s.list_places.size() == n && s.wall.pressure.size() == walls &&
-                    s.departed.size() == kinds && s.planes.records.size() == planes;
+                    s.departed.size() == kinds && s.planes.records.size() == planes &&
+                    s.wall_forces.impulses().size() == impulses;
   if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
   s.fluid.count = static_cast<Index>(n);
-  const SavedNumbers& v = numbers[0];
-  require_possible(v);
   require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, kinds);
-  s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.density_ahead = v.density_ahead,
-  s.displacement = v.displacement, s.dissipated = v.dissipated;
   s.steps = v.steps, s.builds = v.builds;
   s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};

@@ -10,6 +10,8 @@
 #include "ordering.hpp"
 #include "simulation.hpp"
 #include "viscous.hpp"
+#include "walls/moving_walls.hpp"
+#include "walls/wall_forces.hpp"
 #include "watch.hpp"
 
 namespace slagflow {
@@ -25,10 +27,13 @@ struct Simulation::State {
   Buffer<FluidConstants> fluids;
   FluidArrays fluid;
   WallArrays wall;
+  MovingWalls walls;
   Ordering ordering;
   NeighbourList fluid_list, wall_list, wall_to_fluid;
   ListAge list_age;
-  Buffer<Quad> list_places;  // of the fluid when the lists were built
+  WallForces wall_forces;
+  Buffer<Quad> list_places, wall_list_places;  // of the fluid and of moving walls when the lists were built
+  double list_time = 0;                        // [s], of those places
   Buffer<Real> scratch;
   ViscousStep viscous;
   DiagnosticScratch diagnostics;
@@ -39,7 +44,6 @@ struct Simulation::State {
   double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0;
   std::int64_t steps = 0, builds = 0;
   double start_mass = 0;
-  double wall_speed = 0;  // largest [m/s]
   DepartureCounts departed;
   SolveReport report;
   SolverTotals solver;
@@ -48,6 +52,7 @@ struct Simulation::State {
   void upload_walls();
   void rebuild();
   void build_lists();
+  void restore_walls();
   void rebuild_lists_as_saved();
   bool lists_hold();
   PairContext pairs() const;
@@ -56,6 +61,8 @@ struct Simulation::State {
   SolveResult try_solve();
   void solve();
   [[noreturn]] void give_up(const SolveResult&);
+  bool knows_wall_forces() const;
+  void add_wall_forces();
   void look();
   void check_finite();
   void check_departure() const;

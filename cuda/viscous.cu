@@ -119,11 +119,9 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
   }
   Section timer(context_, "viscous solve");
   const LinearSystem matrix = system(c);
-  const bool as_printed = numerics_.explicit_part == ExplicitPart::predicted;
-  const Span<const Quad> explicit_velocity = as_printed ? predicted_.span() : fluid.motion.span();
   if (theta < 1)
     launch(context_, "explicit half", n,
-           ExplicitHalf{matrix, predicted_.span(), explicit_velocity, (1 - theta) / theta,
+           ExplicitHalf{matrix, predicted_.span(), explicit_velocity(fluid), (1 - theta) / theta,
                         right_hand_side_.span()});
   SolveResult result;
   result.converged = true;
@@ -135,6 +133,16 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
   launch(context_, "add increment", n,
          AddIncrement{predicted_.span(), fluid.increment.span(), velocity_.span()});
   return result;
+}
+
+double ViscousStep::implicit_share() const {
+  return numerics_.viscous_step == ViscousStepping::explicit_step ? 0 : numerics_.theta;
+}
+
+Span<const Quad> ViscousStep::explicit_velocity(const FluidArrays& fluid) const {
+  const bool predicted = numerics_.viscous_step == ViscousStepping::implicit_step &&
+                         numerics_.explicit_part == ExplicitPart::predicted;
+  return predicted ? predicted_.span() : fluid.motion.span();
 }
 
 SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const RowCells& rows,

@@ -27,6 +27,10 @@ class ViscousStep {
   void forget(Buffer<Quad>& increment);
 
   Span<const Quad> velocity() const { return velocity_.span(); }
+  // The share of the viscous forces that velocity() gives, theta or 0; and what gives the rest, until the
+  // fluid moves on.
+  double implicit_share() const;
+  Span<const Quad> explicit_velocity(const FluidArrays&) const;
 
  private:
   enum class Weighted { no, by_diagonal };

@@ -80,6 +80,7 @@ struct WallSpec {
   WallSlip slip = WallSlip::no_slip;
   double slip_length = 0;   // [m], of partial slip
   RigidVelocity surface{};  // of the material along the surface
+  WallMotion motion{};
   std::vector<ShapeSpec> shapes, subtract;
 };
 

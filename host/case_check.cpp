@@ -155,6 +155,13 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
     const std::string key = "wall." + std::to_string(w);
     no_y(key + ".surface_velocity", c.walls[w].surface.velocity.y);
     about_y(key + ".surface_angular_velocity", c.walls[w].surface.angular_velocity);
+    const WallMotion& motion = c.walls[w].motion;
+    no_y(key + ".motion.velocity", motion.velocity.y);
+    no_y(key + ".motion.amplitude", motion.amplitude.y);
+    for (const Vec3d& shift : motion.displacement) no_y(key + ".motion.displacement", shift.y);
+    about_y(key + ".motion.angular_velocity", motion.angular_velocity);
+    about_y(key + ".motion.angular_amplitude", motion.angular_amplitude);
+    about_y(key + ".motion.axis", motion.axis);
   }
 }
 

@@ -8,7 +8,6 @@
 namespace slagflow {
 
 const std::vector<std::string> kernel_names{"lucy"};
-const std::vector<std::string> slip_names{"no_slip", "free_slip", "partial_slip"};
 const std::vector<std::string> pressure_names{"hydrostatic", "zero"};
 const std::vector<std::string> departure_names{"remove", "stop"};
 const std::vector<std::string> solver_names{"multigrid", "conjugate_gradient", "sor", "jacobi"};
@@ -25,25 +24,6 @@ namespace {
 constexpr std::size_t most_names = 255;  // particles keep the index of their fluid or wall in one byte
 
 bool plain(unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; }
-
-void check_name(CaseTable& t, const std::string& name) {
-  if (!is_plain_name(name))
-    t.problem("name", "value \"" + name +
-                          "\" is not a name: allowed: up to 100 of letters, digits, _ - . ; " +
-                          "the first a letter, digit or _");
-}
-
-template <class T>
-void check_unique(CaseTable& t, const std::vector<T>& earlier, const std::string& name) {
-  const auto same = [&](const T& other) { return other.name == name; };
-  if (!name.empty() && std::any_of(earlier.begin(), earlier.end(), same))
-    t.problem("name", "value \"" + name + "\" is given twice: allowed: a name of its own");
-}
-
-void check_count(CaseTable& top, const char* key, std::size_t count) {
-  if (count > most_names)
-    top.problem(key, std::to_string(count) + " entries: allowed: up to " + std::to_string(most_names));
-}
 
 void read_domain(CaseTable t, Case& c) {
   const bool low = t.read("min", c.domain.lower, any_number("m"), Need::required);
@@ -174,6 +154,18 @@ void read_measure(CaseTable& t, MeasureSpec& measure) {
 
 }  // namespace
 
+void check_name(CaseTable& t, const std::string& name) {
+  if (!is_plain_name(name))
+    t.problem("name", "value \"" + name +
+                          "\" is not a name: allowed: up to 100 of letters, digits, _ - . ; " +
+                          "the first a letter, digit or _");
+}
+
+void check_count(CaseTable& top, const char* key, std::size_t count) {
+  if (count > most_names)
+    top.problem(key, std::to_string(count) + " entries: allowed: up to " + std::to_string(most_names));
+}
+
 Direction direction_of(int index) { return {index / 2, index % 2 == 0 ? -1 : 1}; }
 
 int index_of(const Direction& direction) { return 2 * direction.axis + (direction.sign > 0 ? 1 : 0); }
@@ -224,44 +216,6 @@ void read_regions(CaseTable& top, Case& c) {
     t.finish();
     c.regions.push_back(region);
   }
-}
-
-namespace {
-
-void read_slip(CaseTable& t, WallSpec& wall) {
-  t.read_enum("slip", wall.slip, slip_names);
-  if (wall.slip == WallSlip::partial_slip)
-    t.read("slip_length", wall.slip_length, above(0, "m"), Need::required);
-  else
-    t.refuse("slip_length", "only slip = \"partial_slip\" has a slip length");
-}
-
-void read_surface(CaseTable& t, WallSpec& wall) {
-  constexpr const char* keys[] = {"surface_velocity", "surface_angular_velocity", "surface_center"};
-  if (wall.slip == WallSlip::free_slip) {
-    for (const char* key : keys) t.refuse(key, "nothing of slip = \"free_slip\" drags the fluid along");
-    return;
-  }
-  t.read(keys[0], wall.surface.velocity, any_number("m/s"));
-  t.read(keys[1], wall.surface.angular_velocity, any_number("rad/s"));
-  t.read(keys[2], wall.surface.center, any_number("m"));
-}
-
-}  // namespace
-
-void read_walls(CaseTable& top, Case& c) {
-  for (CaseTable& t : top.tables("wall", Need::optional)) {
-    WallSpec wall;
-    if (t.read("name", wall.name, Need::required)) check_name(t, wall.name);
-    check_unique(t, c.walls, wall.name);
-    read_slip(t, wall);
-    read_surface(t, wall);
-    read_shapes(t, "shapes", Need::required, c.file, wall.shapes);
-    read_shapes(t, "subtract", Need::optional, c.file, wall.subtract);
-    t.finish();
-    c.walls.push_back(wall);
-  }
-  check_count(top, "wall", c.walls.size());
 }
 
 // One word for the viscous step as the paper has it; keys that are given go before it.

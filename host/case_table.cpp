@@ -256,6 +256,35 @@ bool CaseTable::read(const char* key, std::vector<std::array<double, 2>>& target
   return true;
 }
 
+bool CaseTable::read(const char* key, std::vector<Vec3d>& target, const std::string& allowed) {
+  const Toml* value = find(key, Need::optional, allowed);
+  if (!value) return false;
+  if (!value->is_array()) return wrong_type(key, *value, allowed);
+  std::vector<Vec3d> rows;
+  for (const Toml& row : value->as_array()) {
+    rows.emplace_back();
+    if (!row.is_array() || row.as_array().size() != 3) return wrong_type(key, *value, allowed);
+    for (int k = 0; k < 3; ++k)
+      if (!number_of(row.as_array()[static_cast<std::size_t>(k)], rows.back()[k]))
+        return wrong_type(key, *value, allowed);
+  }
+  target = rows;
+  return true;
+}
+
+bool CaseTable::read(const char* key, std::vector<double>& target, const std::string& allowed) {
+  const Toml* value = find(key, Need::optional, allowed);
+  if (!value) return false;
+  if (!value->is_array()) return wrong_type(key, *value, allowed);
+  std::vector<double> numbers;
+  for (const Toml& entry : value->as_array()) {
+    numbers.emplace_back();
+    if (!number_of(entry, numbers.back())) return wrong_type(key, *value, allowed);
+  }
+  target = numbers;
+  return true;
+}
+
 bool CaseTable::holds_number(const char* key) {
   const Toml* value = find(key, Need::optional, "a number");
   return value && (value->is_floating() || value->is_integer());

@@ -78,6 +78,8 @@ class CaseTable {
   bool read(const char* key, std::vector<std::array<double, 2>>& target, const std::string& allowed);
   // Whether the key holds a number, be it right or wrong.
   bool holds_number(const char* key);
+  bool read(const char* key, std::vector<Vec3d>& target, const std::string& allowed);
+  bool read(const char* key, std::vector<double>& target, const std::string& allowed);
   // Whether the key holds this word.
   bool says(const char* key, const std::string& word);
   bool read_integer(const char* key, int& target, int lower, int upper);

@@ -107,6 +107,36 @@ void write_fluids(std::ostream& out, const Case& c) {
         << "\npressure = " << pressure_text(region) << "\njitter = " << show(region.jitter) << "\n\n";
 }
 
+std::string text_of(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + show(value);
+  return text + "]";
+}
+std::string text_of(const std::vector<Vec3d>& values) {
+  std::string text;
+  for (const Vec3d& value : values) text += (text.empty() ? "[" : ", ") + text_of(value);
+  return text + "]";
+}
+
+std::string text_of(const WallMotion& m) {
+  std::string text = "{type = " + name_of(motion_names, m.kind);
+  if (m.kind == MotionKind::constant || m.kind == MotionKind::ramp)
+    text += ", velocity = " + text_of(m.velocity) + ", angular_velocity = " + text_of(m.angular_velocity);
+  if (m.kind == MotionKind::ramp) text += ", duration = " + show(m.ramp_time);
+  if (m.kind == MotionKind::sine)
+    text += ", amplitude = " + text_of(m.amplitude) +
+            ", angular_amplitude = " + text_of(m.angular_amplitude) + ", frequency = " + show(m.frequency) +
+            ", phase = " + show(m.phase);
+  if (m.kind == MotionKind::table) {
+    text += ", time = " + text_of(m.time) + ", displacement = " + text_of(m.displacement);
+    if (!m.angle.empty()) text += ", angle = " + text_of(m.angle) + ", axis = " + text_of(m.axis);
+    text += ", interpolation = " + name_of(interpolation_names, m.interpolation);
+  }
+  if (m.kind != MotionKind::rest)
+    text += ", center = " + text_of(m.center) + ", start = " + show(m.start) + ", stop = " + show(m.stop);
+  return text + "}";
+}
+
 void write_walls(std::ostream& out, const Case& c) {
   for (const WallSpec& wall : c.walls) {
     out << "[[wall]]\nname = " << quoted(wall.name) << "\nslip = " << name_of(slip_names, wall.slip);
@@ -115,6 +145,7 @@ void write_walls(std::ostream& out, const Case& c) {
       out << "\nsurface_velocity = " << text_of(wall.surface.velocity)
           << "\nsurface_angular_velocity = " << text_of(wall.surface.angular_velocity)
           << "\nsurface_center = " << text_of(wall.surface.center);
+    out << "\nremove_at = " << show(wall.motion.remove_at) << "\nmotion = " << text_of(wall.motion);
     out << "\nshapes = " << text_of(wall.shapes) << "\nsubtract = " << text_of(wall.subtract) << "\n\n";
   }
 }

@@ -30,9 +30,9 @@ class Filler {
   Filling run() {
     mark_walls();
     for (std::size_t r = 0; r < c_.regions.size(); ++r) fill_region(r);
-    mark_open();
-    for (int axis = 0; axis < 3; ++axis) widen_open(axis);
-    place_walls();
+    place_walls([&](std::size_t body) { return !solids_.moves(body); });
+    for (std::size_t b = 0; b < solids_.count(); ++b)
+      if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
     return std::move(result_);
   }
 
@@ -40,13 +40,19 @@ class Filler {
   // Bits of flags_. open << (axis + 1): within the layers of an open site, along this axis and those before.
   static constexpr int fluid = 1, open = 2, sees_open = open << 3;
 
+  // Of walls that share a site the first has it; one at rest goes before one that moves and may uncover it.
   void mark_walls() {
-    for (std::size_t b = 0; b < solids_.count(); ++b)
-      lattice_.visit_inside([&](Vec3d p) { return solids_[b].distance(p); },
-                            [&](const SiteIndex& s, Vec3d) {
-                              std::uint8_t& body = body_[lattice_.linear(s)];
-                              if (body == 0) body = static_cast<std::uint8_t>(b + 1);
-                            });
+    for (const bool moving : {false, true})
+      for (std::size_t b = 0; b < solids_.count(); ++b)
+        if (solids_.moves(b) == moving) mark_wall(b);
+  }
+
+  void mark_wall(std::size_t b) {
+    lattice_.visit_inside([&](Vec3d p) { return solids_[b].distance(p); },
+                          [&](const SiteIndex& s, Vec3d) {
+                            std::uint8_t& body = body_[lattice_.linear(s)];
+                            if (body == 0) body = static_cast<std::uint8_t>(b + 1);
+                          });
   }
 
   void fill_region(std::size_t r) {
@@ -135,11 +141,16 @@ class Filler {
         for (s[0] = 0; s[0] < n[0]; ++s[0]) visit(s);
   }
 
-  void mark_open() {
+  // Marks what is open when only the walls of the company are there.
+  template <class Company>
+  void mark_open(const Company& company) {
     for_all_sites([&](const SiteIndex& s) {
       const std::size_t at = lattice_.linear(s);
-      if (body_[at] == 0 && lattice_.in_domain(s)) flags_[at] |= open;
+      flags_[at] &= fluid;
+      if ((body_[at] == 0 || !company(body_[at] - std::size_t{1})) && lattice_.in_domain(s))
+        flags_[at] |= open;
     });
+    for (int axis = 0; axis < 3; ++axis) widen_open(axis);
   }
 
   // Carries the bit of the axis before on to all sites within the layers along this axis.
@@ -190,12 +201,15 @@ class Filler {
     return p;
   }
 
-  void place_walls() {
+  // Places the particles of a company: the walls at rest, or one that moves.
+  template <class Company>
+  void place_walls(const Company& company) {
+    mark_open(company);
     const WallFaces faces(c_, lattice_, solids_);
     WallParticles& out = result_.walls;
     for_all_sites([&](const SiteIndex& s) {
       const std::size_t at = lattice_.linear(s);
-      if (body_[at] == 0 || !(flags_[at] & sees_open)) return;
+      if (body_[at] == 0 || !(flags_[at] & sees_open) || !company(body_[at] - std::size_t{1})) return;
       const auto body = static_cast<std::uint8_t>(body_[at] - 1);
       const Vec3d p = lattice_.position(s);
       const WallFace face = faces.of(p, body, nearest_open(s, p));

@@ -69,8 +69,17 @@ class WallSolids {
   // Signed distance to the nearest [m], negative inside.
   double distance(Vec3d p) const;
 
+  // A wall that moves or vanishes uncovers its neighbours, and its neighbours it: what a wall's faces border
+  // is decided as if there were only the walls that keep their place beside it, those of its company.
+  bool in_company(std::size_t body, std::size_t other) const {
+    return body == other || !(moves_[body] || moves_[other]);
+  }
+  double distance_to_company(Vec3d p, std::size_t body) const;
+  bool moves(std::size_t body) const { return moves_[body]; }
+
  private:
   std::vector<Solid> solids_;
+  std::vector<bool> moves_;
 };
 
 // Surface of the walls below a wall site.
@@ -93,8 +102,8 @@ class WallFaces {
 
  private:
   std::vector<Foot> feet_by_depth(Vec3d p, std::size_t body) const;
-  void add_back(Vec3d p, const std::vector<Foot>& feet, WallFace& face) const;
-  bool borders_open(const Foot& foot) const;
+  void add_back(Vec3d p, std::size_t body, const std::vector<Foot>& feet, WallFace& face) const;
+  bool borders_open(const Foot& foot, std::size_t body) const;
 
   const WallSolids& solids_;
   DomainSetup domain_;

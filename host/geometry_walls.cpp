@@ -29,13 +29,22 @@ Solid make_solid(const Case& c, const std::vector<ShapeSpec>& shapes, const std:
 }
 
 WallSolids::WallSolids(const Case& c) {
-  for (const WallSpec& wall : c.walls)
+  for (const WallSpec& wall : c.walls) {
+    moves_.push_back(wall.motion.moves());
     solids_.push_back(make_solid(c, wall.shapes, wall.subtract, "wall." + std::to_string(solids_.size())));
+  }
 }
 
 double WallSolids::distance(Vec3d p) const {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Solid& solid : solids_) nearest = std::min(nearest, solid.distance(p));
+  return nearest;
+}
+
+double WallSolids::distance_to_company(Vec3d p, std::size_t body) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t other = 0; other < count(); ++other)
+    if (in_company(body, other)) nearest = std::min(nearest, solids_[other].distance(p));
   return nearest;
 }
 
@@ -50,7 +59,7 @@ WallFaces::WallFaces(const Case& c, const Lattice& lattice, const WallSolids& so
 
 // A point just outside of the surface, brought into the domain, must be in no wall. So faces beyond the
 // domain do not count, and a wall cut off by a periodic face goes on behind it.
-bool WallFaces::borders_open(const Foot& foot) const {
+bool WallFaces::borders_open(const Foot& foot, std::size_t body) const {
   const double nudge = 1e-3 * spacing_;
   Vec3d p = foot.point + nudge * foot.normal;
   for (int k = 0; k < 3; ++k) {
@@ -60,7 +69,7 @@ bool WallFaces::borders_open(const Foot& foot) const {
     else
       p[k] = std::clamp(p[k], lower + nudge, upper - nudge);
   }
-  return solids_.distance(p) >= 0;
+  return solids_.distance_to_company(p, body) >= 0;
 }
 
 std::vector<Foot> WallFaces::feet_by_depth(Vec3d p, std::size_t body) const {
@@ -82,7 +91,7 @@ WallFace WallFaces::of(Vec3d p, std::size_t body, Vec3d open) const {
   const double limit = std::min(reach_, norm(open - p) + 1e-6 * spacing_);
   const auto depth = [&](const Foot& f) { return dot(f.point - p, f.normal); };
   auto chosen = std::find_if(feet.begin(), feet.end(),
-                             [&](const Foot& f) { return depth(f) <= limit && borders_open(f); });
+                             [&](const Foot& f) { return depth(f) <= limit && borders_open(f, body); });
   // A face on which two parts of a wall touch does not count: the open must lie beyond its plane.
   if (chosen == feet.end())
     chosen = std::find_if(feet.begin(), feet.end(),
@@ -90,15 +99,15 @@ WallFace WallFaces::of(Vec3d p, std::size_t body, Vec3d open) const {
   if (chosen == feet.end()) chosen = feet.begin();
   if (chosen == feet.end()) return {};
   WallFace face{std::max(depth(*chosen), 1e-3 * spacing_), chosen->normal, 0, {}};
-  add_back(p, feet, face);
+  add_back(p, body, feet, face);
   return face;
 }
 
-void WallFaces::add_back(Vec3d p, const std::vector<Foot>& feet, WallFace& face) const {
+void WallFaces::add_back(Vec3d p, std::size_t body, const std::vector<Foot>& feet, WallFace& face) const {
   for (const Foot& foot : feet) {
     const double depth = dot(foot.point - p, foot.normal);
     constexpr double opposite = -0.9;
-    if (depth > reach_ || dot(foot.normal, face.normal) > opposite || !borders_open(foot)) continue;
+    if (depth > reach_ || dot(foot.normal, face.normal) > opposite || !borders_open(foot, body)) continue;
     face.back_depth = std::max(depth, 1e-3 * spacing_);
     face.back_normal = foot.normal;
     return;

@@ -151,7 +151,7 @@ void SnapshotWriter::append(const Snapshot& snapshot) {
   const WallSnapshot& w = snapshot.walls;
   to_float(w.position, positions_);
   const PointStep step{w.time, positions_, {w.pressure, w.body}};
-  walls_begun_ ? walls_->append_at_same_points(step) : walls_->append(step);  // walls stand still
+  w.moves || !walls_begun_ ? walls_->append(step) : walls_->append_at_same_points(step);
   walls_begun_ = true;
 }
 

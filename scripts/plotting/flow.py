@@ -32,10 +32,13 @@ class Scene:
         fluid = [run.fluid.positions(step) for step in sorted({0, *steps})]
         self.fluid = np.concatenate([p for p in fluid if len(p)] or [np.zeros((1, 3))])
         self.middle = (self.fluid[:, 1].min() + self.fluid[:, 1].max()) / 2
-        walls = run.walls.positions(0) if run.walls else np.zeros((0, 3))
+        self.walls = [self._walls_at(step) for step in steps]
+
+    def _walls_at(self, step):
+        walls = self.run.walls.positions(min(step, len(self.run.walls.times) - 1)) if self.run.walls else np.zeros((0, 3))
         margin = 4 * self.spacing
         near = (walls > self.fluid.min(axis=0) - margin) & (walls < self.fluid.max(axis=0) + margin)
-        self.walls = walls[near.all(axis=1)]
+        return walls[near.all(axis=1)]
 
 
 class Panel:
@@ -43,7 +46,7 @@ class Panel:
 
     def __init__(self, scene, view, labels):
         self.view, self.labels = view, labels
-        flat = view.project(np.concatenate([scene.fluid, scene.walls]))[:, :2]
+        flat = view.project(np.concatenate([scene.fluid, *scene.walls]))[:, :2]
         self.lower, self.upper = flat.min(axis=0) - 2 * scene.spacing, flat.max(axis=0) + 2 * scene.spacing
         self.unit, self.factor = ("m", 1) if np.ptp(scene.fluid, axis=0).max() > 2 else ("mm", 1e3)
 
@@ -80,20 +83,21 @@ def flat_layer(panel, scale, scene, walls, grey):
     return canvas.picture(np.full((len(walls), 3), grey), None, rim=0)
 
 
-def solid_layer(panel, scale, scene):
+def solid_layer(panel, scale, scene, walls):
     canvas = Canvas(panel.box, scale)
-    canvas.splat(panel.view.project(scene.walls), 0.9 * scene.spacing)
-    return canvas.picture(np.full((len(scene.walls), 3), WALL_SOLID), 6 * scene.spacing, rim=0.28)
+    canvas.splat(panel.view.project(walls), 0.9 * scene.spacing)
+    return canvas.picture(np.full((len(walls), 3), WALL_SOLID), 6 * scene.spacing, rim=0.28)
 
 
-def wall_layers(panel, scale, scene):
+def wall_layers(panel, scale, scene, row):
     """Pictures of the walls, to stand behind the fluid: their extent, and in the side view the section along
     the middle of the fluid."""
+    walls = scene.walls[row]
     if panel.view is OBLIQUE:
-        return [solid_layer(panel, scale, scene)]
-    layers = [flat_layer(panel, scale, scene, scene.walls, WALL_BEHIND)]
+        return [solid_layer(panel, scale, scene, walls)]
+    layers = [flat_layer(panel, scale, scene, walls, WALL_BEHIND)]
     if panel.view is SIDE:
-        section = scene.walls[np.abs(scene.walls[:, 1] - scene.middle) < 0.8 * scene.spacing]
+        section = walls[np.abs(walls[:, 1] - scene.middle) < 0.8 * scene.spacing]
         layers.append(flat_layer(panel, scale, scene, section, WALL_SECTION))
     return layers
 
@@ -164,9 +168,10 @@ class Layout:
                                 tall / self.height])
 
 
-def draw_row(figure, layout, scene, columns, row, norm):
+def draw_row(figure, layout, scene, panels, row, norm):
     left = MARGIN
-    for panel, behind in columns:
+    for panel in panels:
+        behind = wall_layers(panel, layout.scale * DPI, scene, row)
         axes = layout.axes(figure, panel, left, row)
         for layer in behind + [fluid_layer(panel, layout.scale * DPI, scene, scene.steps[row], norm)]:
             axes.imshow(layer, origin="lower", extent=panel.extent, interpolation="none")
@@ -188,8 +193,7 @@ def draw(run, steps, path):
     figure = plt.figure(figsize=(layout.width, layout.height), facecolor="white")
     figure.text(0.5, 1 - 0.2 / layout.height, run.title.replace("_", " "), ha="center", va="center", fontsize=11)
     add_colour_bar(figure, norm, layout)
-    columns = [(panel, wall_layers(panel, layout.scale * DPI, scene)) for panel in panels]
     for row in range(len(steps)):
-        draw_row(figure, layout, scene, columns, row, norm)
+        draw_row(figure, layout, scene, panels, row, norm)
     figure.savefig(path, dpi=DPI)
     plt.close(figure)

@@ -1,0 +1,143 @@
+#include <algorithm>
+
+#include "backend/launch.hpp"
+#include "walls/moving_walls.hpp"
+
+namespace slagflow {
+
+namespace {
+
+HOST_DEVICE Quad turned(const Rotation& r, Quad q) { return quad(to_real(r * to_double(xyz(q))), q.w); }
+
+struct PlaceWall {
+  Span<const WallPose> poses;
+  Span<const std::uint8_t> body;
+  Span<const Vec3d> start;
+  Span<const Quad> start_normal, start_back, start_velocity;
+  Span<const Index> id;
+  Span<Quad> place, normal, back, velocity;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Index k = id[i];
+    const WallPose& pose = poses[body[k]];
+    if (!pose.moves) return;
+    const Vec3d x = pose.target + pose.turn * (start[k] - pose.center);
+    const Quad n = turned(pose.turn, start_normal[k]);
+    const Quad along = turned(pose.turn, start_velocity[k]);
+    const Vec3d surface = x + static_cast<double>(n.w) * to_double(xyz(n));
+    const Vec3d v = pose.velocity + cross(pose.angular_velocity, surface - pose.target);
+    place[i] = quad(to_real(x), pose.removed ? Real(1) : Real(0));
+    normal[i] = n;
+    back[i] = turned(pose.turn, start_back[k]);
+    velocity[i] = quad(to_real(v) + xyz(along), along.w);
+  }
+};
+
+// What WallArrays::velocity holds of a surface that moves while the wall keeps its shape: the velocity of the
+// point of the surface above the wall particle, and only what lies along the surface, so that the wall does
+// not move the fluid out of its way.
+Quad surface_velocity(const WallBody& body, Vec3d position, Vec3d normal, double depth) {
+  Vec3d v = body.surface.at(position + depth * normal);
+  v -= dot(v, normal) * normal;
+  const double slip = body.slip == WallSlip::free_slip ? -1 : body.slip_length;
+  return quad(to_real(v), static_cast<Real>(slip));
+}
+
+}  // namespace
+
+MovingWalls::MovingWalls(Context& c)
+    : context_(c),
+      position_(c, "walls at the start"),
+      normal_(c, "wall normals at the start"),
+      back_(c, "wall back faces at the start"),
+      velocity_(c, "wall velocities at the start"),
+      body_(c, "walls of wall particles"),
+      pose_(c, "wall poses") {}
+
+void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
+  const WallParticles& w = setup.walls;
+  const std::size_t n = w.position.size();
+  origin_ = setup.domain.lower;
+  motion_.clear();
+  for (const WallBody& body : setup.bodies) motion_.push_back(body.motion);
+  any_ = std::any_of(motion_.begin(), motion_.end(), [](const WallMotion& m) { return m.moves(); });
+  radius_.assign(setup.bodies.size(), 0);
+  std::vector<Vec3d> position(n);
+  std::vector<Quad> place(n), normal(n), back(n), velocity(n);
+  std::vector<Index> id(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const WallBody& body = setup.bodies[w.body[i]];
+    position[i] = w.position[i] - origin_;
+    place[i] = quad(to_real(position[i]), 0);
+    normal[i] = quad(to_real(w.normal[i]), static_cast<Real>(w.depth[i]));
+    if (!w.back_depth.empty()) back[i] = quad(to_real(w.back_normal[i]), static_cast<Real>(w.back_depth[i]));
+    velocity[i] = surface_velocity(body, w.position[i], w.normal[i], w.depth[i]);
+    id[i] = static_cast<Index>(i);
+    surface_speed_ = larger(surface_speed_, static_cast<double>(norm(xyz(velocity[i]))));
+    radius_[w.body[i]] = larger(radius_[w.body[i]], norm(w.position[i] - body.motion.center));
+  }
+  wall.resize(static_cast<Index>(n));
+  wall.place.upload(place), wall.normal.upload(normal), wall.back.upload(back);
+  wall.velocity.upload(velocity), wall.id.upload(id);
+  wall.pressure.upload(std::vector<Real>(n));
+  body_.upload(w.body);
+  if (!any_) return;
+  position_.upload(position), normal_.upload(normal), back_.upload(back), velocity_.upload(velocity);
+}
+
+bool MovingWalls::vanishes(double after, double until) const {
+  return std::any_of(motion_.begin(), motion_.end(),
+                     [&](const WallMotion& m) { return m.remove_at > after && m.remove_at <= until; });
+}
+
+std::vector<WallPose> MovingWalls::poses(double time, double dt) const {
+  std::vector<WallPose> result(motion_.size());
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    if (!motion_[b].moves()) continue;
+    const BodyPose now = motion_[b].pose(time), then = motion_[b].pose(time + dt);
+    WallPose& pose = result[b];
+    pose.moves = true;
+    pose.removed = removed(b, time);
+    pose.turn = rotation(now.turn);
+    pose.center = motion_[b].center - origin_;
+    pose.target = pose.center + now.shift;
+    pose.velocity = (then.shift - now.shift) * (1 / dt);
+    pose.angular_velocity = (then.turn - now.turn) * (1 / dt);
+  }
+  return result;
+}
+
+void MovingWalls::place(double time, double dt, WallArrays& wall) {
+  if (!any_) return;
+  const std::vector<WallPose> now = poses(time, dt);
+  speed_ = 0;
+  for (std::size_t b = 0; b < now.size(); ++b)
+    if (now[b].moves && !now[b].removed)
+      speed_ = larger(speed_, norm(now[b].velocity) + radius_[b] * norm(now[b].angular_velocity));
+  pose_.upload(now);
+  launch(context_, "place walls", wall.count,
+         PlaceWall{pose_.span(), body_.span(), position_.span(), normal_.span(), back_.span(),
+                   velocity_.span(), wall.id.span(), wall.place.span(), wall.normal.span(), wall.back.span(),
+                   wall.velocity.span()});
+}
+
+Vec3d MovingWalls::position_at(Vec3d position, std::size_t body, double time) const {
+  const WallMotion& m = motion_[body];
+  if (!m.moves()) return position;
+  const BodyPose pose = m.pose(time);
+  return m.center + pose.shift + rotation(pose.turn) * (position - m.center);
+}
+
+bool MovingWalls::removed(std::size_t body, double time) const { return time >= motion_[body].remove_at; }
+
+double MovingWalls::largest_displacement(double from, double to) const {
+  double largest = 0;
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    if (!motion_[b].moves() || removed(b, from)) continue;
+    const BodyPose a = motion_[b].pose(from), c = motion_[b].pose(to);
+    largest = larger(largest, norm(c.shift - a.shift) + radius_[b] * norm(c.turn - a.turn));
+  }
+  return largest;
+}
+
+}  // namespace slagflow

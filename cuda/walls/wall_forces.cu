@@ -1,0 +1,122 @@
+#include "backend/launch.hpp"
+#include "backend/primitives.hpp"
+#include "pair_pressure.hpp"
+#include "smoothing/lucy.hpp"
+#include "walls/wall_forces.hpp"
+
+namespace slagflow {
+
+namespace {
+
+using Impulse = WallForces::Impulse;
+
+template <class Smoothing, class Box>
+struct AddImpulse {
+  PairContext c;
+  ListView list;
+  Smoothing smoothing;
+  Box box;
+  Real dt, theta;
+  Span<const Quad> velocity, explicit_velocity;
+  Span<const Index> id;
+  Span<Impulse> impulse;
+
+  HOST_DEVICE void operator()(Index w) const {
+    const Offset first = list.row(w);
+    const Index pairs = list.length[w];
+    if (pairs == 0) return;
+    Impulse sum = impulse[id[w]];
+    for (Index k = 0; k < pairs; ++k) add_pair(w, list.entry[first + k * ListView::stride()], sum);
+    impulse[id[w]] = sum;
+  }
+
+  // As in the predictor: the impulse on the fluid particle; the wall feels its reverse.
+  HOST_DEVICE void add_pair(Index w, Index i, Impulse& sum) const {
+    const Vec3 d = box.separation(xyz(c.fluid.place[i]), xyz(c.wall.place[w]));
+    const Real r2 = dot(d, d);
+    if (r2 >= square(c.flow.support)) return;
+    const Quad own = c.fluid.state[i], wall = c.wall.velocity[w];
+    const Real r = std::sqrt(r2), f = smoothing.gradient(r);
+    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
+    const Real other = wall_pressure_share(c.flow, c.wall.pressure[w], rest_density);
+    const Real push = -dt * own.w * own.w * pair_pressure(c.flow, smoothing, own.x, other, r) * f;
+    const Vec3d pressure = to_double(push * d);
+    Vec3d viscous;
+    if (wall.w >= 0) {
+      const Real stick = no_slip_factor({d, c.wall.normal[w], c.wall.back[w]}, c.flow.spacing, wall.w);
+      const Real factor = dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+      const Real weight = -factor * stick * f / (r2 + c.flow.softening);
+      const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
+      viscous = to_double(couple(c.flow.coupling, weight, d, xyz(wall) - mean));
+    }
+    const Vec3d at = to_double(xyz(c.wall.place[w]) + d);
+    sum.pressure -= pressure, sum.viscous -= viscous;
+    sum.pressure_torque -= cross(at, pressure), sum.viscous_torque -= cross(at, viscous);
+    sum.work += dot(pressure + viscous, to_double(xyz(wall)));
+  }
+};
+
+// One of the thirteen numbers of an impulse, of one body or (-1) of all.
+struct ImpulseTerm {
+  Span<const Impulse> impulse;
+  Span<const std::uint8_t> body;
+  int wanted, term;
+  Span<double> result;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Impulse& p = impulse[i];
+    const Vec3d vectors[4] = {p.pressure, p.viscous, p.pressure_torque, p.viscous_torque};
+    const bool counts = wanted < 0 || body[i] == wanted;
+    result[i] = counts ? (term < 12 ? vectors[term / 3][term % 3] : p.work) : 0;
+  }
+};
+constexpr int work_term = 12;
+
+}  // namespace
+
+WallForces::WallForces(Context& c)
+    : context_(c),
+      impulse_(c, "wall impulses"),
+      body_(c, "walls of wall impulses"),
+      terms_(c, "wall impulse terms") {}
+
+void WallForces::start(const std::vector<std::uint8_t>& body) {
+  impulse_.upload(std::vector<Impulse>(body.size()));
+  body_.upload(body);
+}
+
+void WallForces::add(const PairContext& c, const ListView& list, const WallArrays& wall,
+                     const WallForceStep& step) {
+  const Lucy smoothing(static_cast<double>(c.flow.support), c.flow.dimensions);
+  auto sweep = [&](auto box) {
+    launch(context_, "wall forces", wall.count,
+           AddImpulse<Lucy, decltype(box)>{c, list, smoothing, box, static_cast<Real>(step.dt),
+                                           static_cast<Real>(step.theta), step.velocity,
+                                           step.explicit_velocity, wall.id.span(), impulse_.span()});
+  };
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+}
+
+WallLoad WallForces::load(std::size_t body) {
+  const auto n = static_cast<Index>(impulse_.size());
+  terms_.resize(n);
+  const auto total = [&](int term) {
+    launch(context_, "wall impulse term", n,
+           ImpulseTerm{impulse_.span(), body_.span(), static_cast<int>(body), term, terms_.span()});
+    return sum(context_, terms_.span());
+  };
+  WallLoad load;
+  Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque, &load.viscous_torque};
+  for (int term = 0; term < work_term; ++term) (*vectors[term / 3])[term % 3] = total(term);
+  load.work = total(work_term);
+  return load;
+}
+
+double WallForces::work() {
+  const auto n = static_cast<Index>(impulse_.size());
+  terms_.resize(n);
+  launch(context_, "wall work", n, ImpulseTerm{impulse_.span(), body_.span(), -1, work_term, terms_.span()});
+  return sum(context_, terms_.span());
+}
+
+}  // namespace slagflow

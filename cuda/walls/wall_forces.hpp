@@ -1,0 +1,46 @@
+// What the fluid does to the walls: the reaction of the pair sums of predictor and viscous solve, so that the
+// momentum of fluid and walls together is kept.
+#pragma once
+
+#include "density.hpp"
+#include "simulation.hpp"
+
+namespace slagflow {
+
+// A step as the walls feel it: the solved velocity, and the one that the explicit part of (7) acted on.
+struct WallForceStep {
+  double dt, theta;
+  Span<const Quad> velocity, explicit_velocity;
+};
+
+class WallForces {
+ public:
+  explicit WallForces(Context&);
+
+  // Starts at zero; `body`: index of the body of each wall particle, in the order of ids.
+  void start(const std::vector<std::uint8_t>& body);
+
+  // Adds the impulses of a step. `list`: for each wall particle, the fluid particles in reach. Call before
+  // the particles move.
+  void add(const PairContext&, const ListView& list, const WallArrays&, const WallForceStep&);
+
+  // Since the start; torques about the lower corner of the domain.
+  WallLoad load(std::size_t body);
+  double work();  // of all walls [J]
+
+  // Of each wall particle, in the order of ids; what a checkpoint keeps.
+  struct Impulse {
+    Vec3d pressure, viscous;                // [N s]
+    Vec3d pressure_torque, viscous_torque;  // [N m s] about the lower corner of the domain
+    double work = 0;                        // [J]
+  };
+  Buffer<Impulse>& impulses() { return impulse_; }
+
+ private:
+  Context& context_;
+  Buffer<Impulse> impulse_;
+  Buffer<std::uint8_t> body_;
+  Buffer<double> terms_;
+};
+
+}  // namespace slagflow
