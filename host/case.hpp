@@ -94,7 +94,7 @@ struct OutputSpec {
   std::string stop_after;  // a front or jet that ends the run when it arrives; empty: none
 };
 
-enum class MeasureType { front, jet, flow_rate, volume, profile };
+enum class MeasureType { front, jet, flow_rate, volume, profile, force };
 
 struct MeasureSpec {
   std::string name;
@@ -108,6 +108,8 @@ struct MeasureSpec {
   Vec3d min, max;           // [m] volume: the box
   Vec3d start, end;         // [m] profile: the line
   int points = 50;          // profile: on the line, both ends included
+  int wall = 0;             // force: index into Case::walls
+  Vec3d about;              // [m] force: the point of its torque
 };
 
 struct Case {

@@ -101,6 +101,8 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
       return check_volume(c, index, problems);
     case MeasureType::profile:
       return check_profile(c, index, problems);
+    case MeasureType::force:
+      return;
   }
 }
 

@@ -15,7 +15,7 @@ const std::vector<std::string> operator_names{"radial", "laplacian"};
 const std::vector<std::string> stepping_names{"implicit", "explicit"};
 const std::vector<std::string> explicit_names{"old_velocity", "predicted"};
 const std::vector<std::string> scheme_names{"slagflow", "paper"};
-const std::vector<std::string> measure_names{"front", "jet", "flow_rate", "volume", "profile"};
+const std::vector<std::string> measure_names{"front", "jet", "flow_rate", "volume", "profile", "force"};
 const std::vector<std::string> direction_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 const std::vector<std::string> axis_names{"x", "y", "z"};
 
@@ -134,7 +134,14 @@ void read_profile(CaseTable& t, MeasureSpec& measure) {
   t.read_integer("points", measure.points, 2, most_points);
 }
 
-void read_measure(CaseTable& t, MeasureSpec& measure) {
+void read_force(CaseTable& t, const Case& c, MeasureSpec& measure) {
+  std::vector<std::string> names;
+  for (const WallSpec& wall : c.walls) names.push_back(wall.name);
+  t.read_choice("wall", measure.wall, names, Need::required);
+  t.read("about", measure.about, any_number("m"));
+}
+
+void read_measure(CaseTable& t, const Case& c, MeasureSpec& measure) {
   switch (measure.type) {
     case MeasureType::front:
       read_fraction(t, measure);
@@ -149,6 +156,8 @@ void read_measure(CaseTable& t, MeasureSpec& measure) {
       return;
     case MeasureType::profile:
       return read_profile(t, measure);
+    case MeasureType::force:
+      return read_force(t, c, measure);
   }
 }
 
@@ -287,7 +296,7 @@ void read_measures(CaseTable& top, Case& c) {
     if (t.read("name", measure.name, Need::required)) check_name(t, measure.name);
     check_unique(t, c.measures, measure.name);
     if (t.read_enum("type", measure.type, measure_names, Need::required)) {
-      read_measure(t, measure);
+      read_measure(t, c, measure);
       t.finish();
     }
     c.measures.push_back(measure);

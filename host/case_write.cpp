@@ -167,12 +167,15 @@ void write_numerics(std::ostream& out, const Case& c) {
       << "\nskin = " << show(n.skin) << "\n\n";
 }
 
-void write_measure(std::ostream& out, const MeasureSpec& m) {
+void write_measure(std::ostream& out, const Case& c, const MeasureSpec& m) {
   out << "\n[[measure]]\nname = " << quoted(m.name) << "\ntype = " << name_of(measure_names, m.type);
   if (m.type == MeasureType::front || m.type == MeasureType::jet) out << "\nfraction = " << show(m.fraction);
   if (m.type == MeasureType::front || m.type == MeasureType::flow_rate)
     out << "\ndirection = " << name_of(direction_names, index_of(m.direction))
         << "\nposition = " << show(m.position) << "\n";
+  else if (m.type == MeasureType::force)
+    out << "\nwall = " << quoted(c.walls[static_cast<std::size_t>(m.wall)].name)
+        << "\nabout = " << text_of(m.about) << "\n";
   else if (m.type == MeasureType::volume)
     out << "\nmin = " << text_of(m.min) << "\nmax = " << text_of(m.max) << "\n";
   else if (m.type == MeasureType::profile)
@@ -196,7 +199,7 @@ std::string to_toml(const Case& c) {
       << "\nhistory_interval = " << show(c.output.history_interval) << "\nwalls = " << text_of(c.output.walls)
       << "\ncheckpoint_interval = " << show(c.output.checkpoint_interval)
       << "\nstop_after = " << quoted(c.output.stop_after) << "\n";
-  for (const MeasureSpec& measure : c.measures) write_measure(out, measure);
+  for (const MeasureSpec& measure : c.measures) write_measure(out, c, measure);
   return out.str();
 }
 

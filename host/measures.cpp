@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "backend/error.hpp"
+#include "host/measure_force.hpp"
 #include "host/measure_front.hpp"
 #include "host/measure_volume.hpp"
 #include "host/profiles.hpp"
@@ -32,6 +33,10 @@ std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationS
     }
     case MeasureType::volume:
       return std::make_unique<VolumeMeasure>(spec, next.boxes++, volume, setup.dimensions);
+    case MeasureType::force: {
+      const auto body = static_cast<std::size_t>(spec.wall);
+      return std::make_unique<ForceMeasure>(spec, setup.bodies.at(body).name, setup.dimensions);
+    }
     case MeasureType::profile:
       return std::make_unique<ProfileMeasure>(spec, setup.lines.at(next.lines++));
     default: {

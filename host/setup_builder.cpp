@@ -28,6 +28,24 @@ double automatic_sound_speed(const Case& c, const FluidParticles& fluid) {
   return speed;
 }
 
+// Fast walls compress the fluid in front of them.
+void warn_of_fast_walls(const SimulationSetup& setup, std::vector<std::string>& warnings) {
+  constexpr double fast = 0.2;  // of the sound speed
+  std::vector<double> reach(setup.bodies.size(), 0);
+  for (std::size_t i = 0; i < setup.walls.position.size(); ++i) {
+    double& r = reach[setup.walls.body[i]];
+    r = std::max(r, norm(setup.walls.position[i] - setup.bodies[setup.walls.body[i]].motion.center));
+  }
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
+    const WallMotion::Speeds speeds = setup.bodies[b].motion.fastest();
+    const double speed = speeds.linear + reach[b] * speeds.angular;
+    if (speed > fast * setup.numerics.sound_speed)
+      warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speed) +
+                         " m/s: numerics.sound_speed, " + std::to_string(setup.numerics.sound_speed) +
+                         " m/s, should be ten times that");
+  }
+}
+
 FluidSetup fluid_setup(const FluidSpec& spec) {
   FluidSetup fluid;
   fluid.name = spec.name;
@@ -52,6 +70,8 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
       return setup.boxes.push_back({measure.min, measure.max});
     case MeasureType::profile:
       return setup.lines.push_back({measure.start, measure.end, measure.points});
+    case MeasureType::force:
+      setup.measure_walls = true;
   }
 }
 
@@ -82,6 +102,7 @@ BuiltCase build_setup(const Case& c) {
   if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
   setup.limits = built.resolved.limits;
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
+  warn_of_fast_walls(setup, built.warnings);
   return built;
 }
 
