@@ -41,7 +41,8 @@ struct AggregateGrid {
   }
   // From the centre of a cell to that of the one in a slot around it [m].
   HOST_DEVICE Vec3d offset(int slot) const {
-    return {(slot % 3 - 1) * width.x, (slot / 3 % 3 - 1) * width.y, (slot / 9 - 1) * width.z};
+    const int x = slot % 3 - 1, y = slot / 3 % 3 - 1, z = slot / 9 - 1;
+    return {x * width.x, y * width.y, z * width.z};
   }
   // The cell of the next coarser grid that holds this one.
   HOST_DEVICE Index parent(Index cell, const AggregateGrid& coarse) const {
