@@ -43,7 +43,8 @@ struct AddImpulse {
     const Vec3d pressure = to_double(push * d);
     Vec3d viscous;
     if (wall.w >= 0) {
-      const Real stick = no_slip_factor({d, c.wall.normal[w], c.wall.back[w]}, c.flow.spacing, wall.w);
+      const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
+      const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
       const Real factor = dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
       const Real weight = -factor * stick * f / (r2 + c.flow.softening);
       const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
