@@ -136,7 +136,7 @@ TEST(CaseWalls, AFastWallIsWarnedOf) {
 // A plate on the floor hides no site of it, and has a face below: either is bare when it lifts.
 TEST(CaseWalls, AWallThatMovesAndItsNeighboursHaveFacesToEachOther) {
   const std::string plate =
-      "[[wall]]\nname = 'plate'\nshapes = [{shape = 'box', min = [0.01, -0.004, 0], max = [0.014, 0.014, "
+      "[[wall]]\nname = 'plate'\nshapes = [{shape = 'box', min = [0.01, -0.004, 0], max = [0.0145, 0.014, "
       "0.01]}]\n";
   const WallParticles fixed = build_setup(read(plate)).setup.walls;
   const WallParticles moving =
