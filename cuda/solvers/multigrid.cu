@@ -117,7 +117,7 @@ struct SmoothBlocks {
   Span<double> motion;
   HOST_DEVICE void operator()(Index row) const {
     const Offset a = row / motions;
-    const double* d = inverse.data + a * block_entries + row % motions * motions;
+    const double* d = inverse.data + a * block_entries + static_cast<Offset>(row % motions) * motions;
     double sum = 0;
     for (int l = 0; l < motions; ++l) sum += d[l] * rest[a * motions + l];
     motion[row] = (from == From::zero ? 0 : motion[row]) + damping * sum;

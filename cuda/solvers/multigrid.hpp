@@ -42,7 +42,7 @@ class Multigrid {
 
   // Whether it ended because the energy of the error is small enough.
   bool iterate(const LinearSystem&, const RowCells&, const SolveLimits&, Problem&);
-  void cycle(std::size_t level);
+  void cycle(std::size_t number);
   void residual(Level&);
 
   Context& context_;
