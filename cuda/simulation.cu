@@ -279,6 +279,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 
 void Simulation::step() {
   State& s = *state_;
+  const double last_dt = s.dt;
   s.walls.place(s.time, s.dt, s.wall);
   if (!s.lists_hold()) {
     s.rebuild();
@@ -295,13 +296,14 @@ void Simulation::step() {
       update_density(s.context, s.pairs(), s.fluid, s.scratch, static_cast<Real>(s.dt - s.density_ahead));
       s.density_ahead = 0;
     }
+    // What the last step dissipated: the viscous forces acted on the velocities that it ended with.
+    if (s.steps > 0) s.dissipated += last_dt * dissipation(s.context, s.fluid, s.diagnostics);
     {
       Section timer(s.context, "wall pressure");
       extrapolate_wall_pressure(s.context, s.pairs(), s.wall_to_fluid.view(), s.wall);
     }
     s.solve();
     s.add_wall_forces();
-    s.dissipated += s.dt * dissipation(s.context, s.fluid, s.diagnostics);
     Section timer(s.context, "advance");
     s.displacement =
         advance_particles(s.context, s.fluid, {s.viscous.velocity(), s.dt}, s.list_places, s.scratch);

@@ -87,7 +87,9 @@ TEST(SimulationPhysics, AViscousTankOnlyLosesEnergy) {
                           start.potential_energy;
     EXPECT_LT(gained, 1e-3 * start.kinetic_energy) << "step " << k;
     EXPECT_GT(gained, -0.2 * start.kinetic_energy) << "step " << k;
-    EXPECT_GT(t.dissipated_energy, last.dissipated_energy);
+    if (k > 0) {
+      EXPECT_GT(t.dissipated_energy, last.dissipated_energy);  // with what the step before dissipated
+    }
     EXPECT_LT(t.kinetic_energy, last.kinetic_energy);
     last = t;
   }

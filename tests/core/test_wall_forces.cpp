@@ -39,6 +39,7 @@ struct Scheme {
   double theta;
   ViscousOperator form;
   ExplicitPart explicit_part;
+  ViscousStepping stepping = ViscousStepping::implicit_step;
 };
 
 class WallForcesOf : public testing::TestWithParam<Scheme> {};
@@ -49,6 +50,7 @@ TEST_P(WallForcesOf, BalanceTheMomentumOfEachStep) {
   s.numerics.theta = GetParam().theta;
   s.numerics.viscous_operator = GetParam().form;
   s.numerics.explicit_part = GetParam().explicit_part;
+  s.numerics.viscous_step = GetParam().stepping;
   s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
   Simulation simulation(s);
   Totals before = simulation.totals();
@@ -73,6 +75,7 @@ TEST_P(WallForcesOf, BalanceTheAngularMomentumWhereTheOperatorKeepsIt) {
   s.domain.periodic = {false, false, false};
   s.numerics.theta = GetParam().theta;
   s.numerics.explicit_part = GetParam().explicit_part;
+  s.numerics.viscous_step = GetParam().stepping;
   s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
   Simulation simulation(s);
   FluidSnapshot particles;
@@ -99,6 +102,8 @@ TEST_P(WallForcesOf, BalanceTheAngularMomentumWhereTheOperatorKeepsIt) {
 INSTANTIATE_TEST_SUITE_P(
     , WallForcesOf,
     testing::Values(Scheme{"Implicit", 1, ViscousOperator::radial, ExplicitPart::old_velocity},
+                    Scheme{"Explicit", 0.5, ViscousOperator::radial, ExplicitPart::predicted,
+                           ViscousStepping::explicit_step},
                     Scheme{"Mixed", 0.6, ViscousOperator::radial, ExplicitPart::old_velocity},
                     Scheme{"AsPrinted", 0.5, ViscousOperator::radial, ExplicitPart::predicted},
                     Scheme{"Laplacian", 0.5, ViscousOperator::laplacian, ExplicitPart::old_velocity}),

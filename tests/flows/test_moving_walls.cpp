@@ -61,7 +61,7 @@ TEST(MovingWalls, AGateHoldsAndOpens) {
   Flow flow("dam_discharge_gate.toml", {"wall.1.motion.start=0.1", "wall.1.motion.stop=0.3"});
   const double spacing = flow.setup().spacing;
   double beyond = -1e30, inside = -1e30;
-  flow.run(0.35, [&] {
+  flow.run(0.45, [&] {
     const double time = flow.simulation().time(), bottom = 0.2 * std::max(0.0, std::min(time, 0.3) - 0.1);
     const FluidSnapshot s = flow.snapshot();
     if (time < 0.1) beyond = std::max(beyond, deepest(s, spacing, [](Vec3d x) { return x.x; }));
