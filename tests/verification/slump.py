@@ -13,7 +13,7 @@ FOOT = ("the outermost particles run ahead in a foot one or two particles thick,
         "lies before the last hundredth of the fluid agrees")
 MISSES = {f"{n} high: run-out {when} [H]": FOOT for n, when in (
     (20, "after 94 η/(ρgH − τ_B)"), (20, "after 179 η/(ρgH − τ_B)"), (20, "of the slump at rest"),
-    (40, "after 94 η/(ρgH − τ_B)"), (40, "after 179 η/(ρgH − τ_B)"))}
+    (40, "after 94 η/(ρgH − τ_B)"), (40, "after 179 η/(ρgH − τ_B)"), (40, "of the slump at rest"))}
 
 
 def runs(quick):
