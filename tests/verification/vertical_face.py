@@ -10,6 +10,9 @@ HEIGHT = 0.02  # [m]
 WEIGHT = 1000 * 9.81 * HEIGHT  # [Pa]
 STANDING, FAILING = 0.30, 0.23
 TIME = 0.3  # [s]
+MISSES = {"20 high, τ_B 0.23 ρgH: the face moves in 0.3 s, mean of its height [Δx]":
+          "the face fails, but slower than was asked for: it moved 0.61 Δx before the operator's correction was "
+          "computed and 0.41 Δx since; the cause is not found"}
 
 
 def runs(quick):
@@ -29,12 +32,9 @@ def face(result, state):
 
 def rows(results):
     table = []
-    for result, still, loose in zip(results, (True, False), ((None, 0.15), (0.3, None))):
+    for result, bounds in zip(results, ((None, 0.1), (0.5, None))):
         moved = np.mean(face(result, result.state())[1])
-        table.append(bound_row(result.resolution, "the face moves in 0.3 s, mean of its height [Δx]", moved,
-                               (None, 0.1) if still else (0.1, None)))
-        table.append(bound_row(result.resolution, "part of the fluid that yields, after 50 ms",
-                               np.mean(result.state(0.05).yielded), loose))
+        table.append(bound_row(result.resolution, "the face moves in 0.3 s, mean of its height [Δx]", moved, bounds))
     speeds = [np.sqrt(np.mean(np.sum(r.state(0.05).velocity**2, axis=1))) for r in results]
     table.append(bound_row("20 high", "rms speed after 50 ms, failing / standing", speeds[1] / speeds[0], (10, None)))
     return table
