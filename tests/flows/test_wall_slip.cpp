@@ -69,9 +69,9 @@ TEST(WallSlip, TurningCylinder) {
   }
   error = std::sqrt(error / size);
   std::printf("concentric cylinders: error %.2f %%\n", 100 * error);
-  // The operator's viscosity depends on how the lattice lies: 0.93 to 1.08 of the mean (README, Limits), and
-  // the layers that turned with the inner cylinder lie otherwise than those outside.
-  EXPECT_LT(error, 0.05);
+  // The target, 3 %, is missed: 3.6 %. That the operator's viscosity depends on how the lattice lies (README,
+  // Limits) may be the cause; it is not shown. The bound keeps the error from growing.
+  EXPECT_LT(error, 0.04);
 }
 
 }  // namespace
