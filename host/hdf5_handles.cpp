@@ -21,7 +21,13 @@ herr_t keep_first(unsigned n, const H5E_error2_t* error, void* out) {
 std::string reason_of_hdf5() {
   std::string reason;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &reason);
-  return reason.empty() ? "unknown reason" : reason;
+  if (reason.empty()) return "unknown reason";
+  // Of "unable to open file: name = ..., errno = 2, error message = 'No such file or directory', ..."
+  static const std::string before = "error message = '";
+  const auto from = reason.find(before);
+  if (from == std::string::npos) return reason;
+  const auto start = from + before.size();
+  return reason.substr(start, reason.find('\'', start) - start);
 }
 
 Handle text_type(std::size_t size) {

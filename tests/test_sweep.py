@@ -107,8 +107,7 @@ class Sweep(unittest.TestCase):
 
     def test_runs_each_point_once_and_outlives_failures(self):
         if not (PROJECT / ".venv/bin/snakemake").is_file():
-            print("SKIPPED: no Snakemake; scripts/install --sweep brings it")
-            sys.exit(77)
+            self.skipTest("no Snakemake; scripts/install --sweep brings it")
         self.program = self.folder / "slagflow"
         self.program.write_text(PROGRAM)
         self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
@@ -133,8 +132,7 @@ class Figures(unittest.TestCase):
         try:
             from plotting import paper_charts
         except ImportError as missing:
-            print(f"SKIPPED: {missing}")
-            sys.exit(77)
+            self.skipTest(str(missing))
         columns = ["status", "oil", "phi", "yield", "fluid.slurry.plastic_viscosity", "fluid.slurry.density",
                    "fluid.slurry.yield_stress", "spacing", "jet.tan_theta", "jet.travelling_time", "jet.class"]
         rows = [["done", "A", 0, "slag", 0.0482, 965, 0, 0.002, 0.3, 0.18, "free-jet"],
@@ -169,4 +167,5 @@ class Figures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())
