@@ -23,11 +23,8 @@ struct CellGrid {
   HOST_DEVICE Index cells() const { return count[0] * count[1] * count[2]; }
   HOST_DEVICE int along(int axis, Real coordinate) const {
     const int n = count[axis];
-    const Real scaled = std::floor(coordinate * inverse_width[axis]);
-    if (periodic[axis]) {
-      const int c = static_cast<int>(scaled) % n;
-      return c < 0 ? c + n : c;
-    }
+    Real scaled = std::floor(coordinate * inverse_width[axis]);
+    if (periodic[axis]) scaled -= Real(n) * std::floor(scaled / Real(n));
     return scaled > 0 ? (scaled < Real(n) ? smaller(static_cast<int>(scaled), n - 1) : n - 1) : 0;
   }
   HOST_DEVICE Index cell_of(Vec3 place) const {

@@ -44,7 +44,7 @@ struct WallMotion {
 
   // Whether the body is ever anywhere else than at the start.
   bool moves() const { return kind != MotionKind::rest || remove_at < never; }
-  BodyPose pose(double time) const;
+  BodyPose pose(double now) const;
 
   // Bounds of |d shift/dt| [m/s] and |d turn/dt| [rad/s].
   struct Speeds {
