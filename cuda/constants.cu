@@ -13,9 +13,29 @@ void require(bool holds, const std::string& message) {
   if (!holds) throw InputError(message);
 }
 
+void validate_exact_yield(const SimulationSetup& s) {
+  const NumericsSetup& n = s.numerics;
+  require(n.theta == 1, "yield \"exact\" with theta " + std::to_string(n.theta) + "; allowed: 1");
+  require(n.viscous_operator == ViscousOperator::radial,
+          "yield \"exact\" with operator \"laplacian\"; allowed: \"radial\"");
+  require(n.viscous_step == ViscousStepping::implicit_step,
+          "yield \"exact\" with viscous_step \"explicit\"; allowed: \"implicit\"");
+  require(n.yield_augmentation >= 0 && n.yield_iterations > 0,
+          "yield_augmentation: allowed: 0 or larger; yield_iterations: larger than 0");
+  for (const FluidSetup& f : s.fluids)
+    require(allows_exact_yield(f.rheology.kind), "yield \"exact\" with fluid \"" + f.name +
+                                                     "\" of rheology \"" + f.rheology.info().name +
+                                                     "\"; allowed: newtonian, bingham, "
+                                                     "herschel-bulkley, carreau-yasuda");
+}
+
 double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.dimensions); }
 
 }  // namespace
+
+bool allows_exact_yield(RheologyKind kind) {
+  return kind != RheologyKind::casson && kind != RheologyKind::biviscous;
+}
 
 void validate(const SimulationSetup& s) {
   require(s.spacing > 0, "spacing is " + std::to_string(s.spacing) + " m; allowed: larger than 0");
@@ -26,6 +46,7 @@ void validate(const SimulationSetup& s) {
   require(s.numerics.theta > 0 && s.numerics.theta <= 1,
           "theta is " + std::to_string(s.numerics.theta) + "; allowed: 0.5 to 1");
   require(!s.fluids.empty(), "there is no fluid");
+  if (s.numerics.yield == YieldModel::exact) validate_exact_yield(s);
   const auto& p = s.particles;
   const std::size_t n = p.position.size();
   require(n < static_cast<std::size_t>(std::numeric_limits<Index>::max()),

@@ -11,6 +11,9 @@ namespace slagflow {
 // Throws InputError on values that no run can have.
 void validate(const SimulationSetup&);
 
+// Whether the stress is a yield stress plus a viscous one.
+bool allows_exact_yield(RheologyKind);
+
 FlowConstants flow_constants(const SimulationSetup&);
 std::vector<FluidConstants> fluid_constants(const SimulationSetup&);
 // Of one particle of fluid `kind` [kg].

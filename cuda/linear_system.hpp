@@ -114,6 +114,8 @@ struct SolveResult {
   double residual = 0;         // ||b - A u|| at the end, evaluated from u
   double right_hand_side = 0;  // ||b||
   bool converged = false;
+  int yield_iterations = 0;  // of an exact yield stress (exact_yield.hpp)
+  bool yield_converged = false;
 };
 
 }  // namespace slagflow

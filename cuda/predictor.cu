@@ -54,7 +54,7 @@ struct PredictAndAssemble {
         acceleration -= (other.w * f * pair_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(i, Lanes(own.y), other.y, j);
-        weight = (factor * (own.z * other.z) * f) * mean / (r2 + c.flow.softening);
+        weight = (factor * (own.z * other.z) * f) * (mean + c.flow.augmentation) / (r2 + c.flow.softening);
         diagonal += pair_diagonal(weight, d);
       }
       store_lanes(&out.weight[at], weight);
@@ -65,7 +65,8 @@ struct PredictAndAssemble {
 
   HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
-    const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+    const Real factor =
+        implicit_dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
     LaneVec3 push, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);

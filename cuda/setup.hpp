@@ -77,6 +77,10 @@ enum class ViscousStepping { implicit_step, explicit_step };
 // puts an error f dt/2 into the steady state.
 enum class ExplicitPart { old_velocity, predicted };
 
+// regularised: a yield stress is a high viscosity at low shear rates. exact: unyielded fluid is rigid
+// (exact_yield.hpp); implicit backward Euler steps with the radial operator only.
+enum class YieldModel { regularised, exact };
+
 enum class ViscousSolver { multigrid, conjugate_gradient, sor, jacobi };
 
 struct NumericsSetup {
@@ -89,6 +93,9 @@ struct NumericsSetup {
   double viscosity_correction = 0;  // 0: from the kernel and the lattice (lattice_viscosity.hpp)
   ViscousStepping viscous_step = ViscousStepping::implicit_step;
   double diffusion_number = 0.1;  // d_i of equation (5), of the explicit step
+  YieldModel yield = YieldModel::regularised;
+  int yield_iterations = 200;     // of the exact yield stress, most in a step
+  double yield_augmentation = 0;  // in rho spacing^2 / dt, its speed of convergence only; 0: adapted
   ViscousOperator viscous_operator = ViscousOperator::radial;
   ExplicitPart explicit_part = ExplicitPart::old_velocity;
   double theta = 1;    // 1 backward Euler, 0.5 Crank-Nicolson

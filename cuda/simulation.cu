@@ -86,6 +86,7 @@ void Simulation::State::upload_fluid() {
   }
   for (std::size_t kind = 0; kind < count.size(); ++kind)
     start_mass += static_cast<double>(count[kind]) * particle_mass(setup, kind);
+  start_count = static_cast<Index>(n);
   fluids.upload(constants);
   fluid.resize(static_cast<Index>(n));
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
@@ -114,6 +115,7 @@ void Simulation::State::rebuild() {
   check_departure();
   if (walls.any()) ordering.sort(wall);
   build_lists();
+  if (exact_yield()) viscous.exact_yield().follow({fluid_list, wall_list, fluid.id, wall.id}, start_count);
   list_places.copy_from(fluid.place);
   if (walls.any()) wall_list_places.copy_from(wall.place);
   list_time = time;
@@ -146,6 +148,7 @@ void Simulation::State::rebuild_lists_as_saved() {
   ordering.find_cells(fluid);
   build_lists();
   fluid.place.swap(list_places);
+  if (exact_yield()) viscous.exact_yield().remember({fluid_list, wall_list, fluid.id, wall.id}, start_count);
 }
 
 void Simulation::State::check_departure() const {
@@ -198,6 +201,7 @@ SolveResult Simulation::State::try_solve() {
   report.converged = result.converged;
   solver.iterations += result.iterations;
   solver.max_iterations = larger(solver.max_iterations, result.iterations);
+  solver.yield_iterations += result.yield_iterations;
   if (!std::isfinite(result.residual)) check_finite();
   return result;
 }
@@ -216,6 +220,7 @@ void Simulation::State::solve() {
     result = try_solve();
   }
   solver.steps += 1;
+  if (exact_yield() && !result.yield_converged) ++solver.yield_unconverged;
   solver.worst_residual = larger(solver.worst_residual, report.residual);
 }
 
@@ -235,8 +240,9 @@ bool Simulation::State::knows_wall_forces() const {
 void Simulation::State::add_wall_forces() {
   if (!knows_wall_forces()) return;
   Section timer(context, "wall forces");
-  wall_forces.add(pairs(), wall_to_fluid.view(), wall,
-                  {dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid)});
+  wall_forces.add(viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
+                  {dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
+                   viscous.wall_yield()});
 }
 
 void Simulation::State::look() {

@@ -13,8 +13,12 @@ struct FlagYielded {
   Span<const std::uint8_t> fluid;
   Span<const Real> shear_rate;
   Span<std::uint8_t> result;
+  Span<const Real> held{};  // of an exact yield stress
   HOST_DEVICE void operator()(Index i) const {
-    result[i] = yielded(fluids[fluid[i]].rheology, shear_rate[i]) ? 1 : 0;
+    if (held.data)
+      result[i] = held[i] < 1 ? 1 : 0;
+    else
+      result[i] = yielded(fluids[fluid[i]].rheology, shear_rate[i]) ? 1 : 0;
   }
 };
 
@@ -73,7 +77,8 @@ void Simulation::read(FluidSnapshot& out) {
   const auto n = static_cast<std::size_t>(s.fluid.count);
   Buffer<std::uint8_t> flags(s.context, "yielded", s.fluid.count);
   launch(s.context, "yielded", s.fluid.count,
-         FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.fluid.shear_rate.span(), flags.span()});
+         FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.fluid.shear_rate.span(), flags.span(),
+                     s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{}});
   const auto position = on_host(s.fluid.position);
   const auto motion = on_host(s.fluid.motion);
   const auto state = on_host(s.fluid.state);

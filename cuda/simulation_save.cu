@@ -14,7 +14,7 @@ namespace {
 struct SavedNumbers {
   double time, dt, full_dt, density_ahead, displacement, dissipated, list_time;
   std::int64_t steps, builds;
-  std::int64_t solver_steps, solver_iterations, solver_retried;
+  std::int64_t solver_steps, solver_iterations, solver_retried, yield_iterations, yield_unconverged;
   double worst_residual, residual, velocity_error, lowest_energy;
   std::int32_t max_iterations, iterations, converged, real_size;
 };
@@ -115,6 +115,7 @@ SavedState Simulation::save() const {
   SavedState result;
   Saver saver(result);
   visit_arrays(saver, s);
+  if (s.exact_yield()) s.viscous.exact_yield().visit_arrays(saver);
   std::vector<SavedNumbers> numbers{{s.time,
                                      s.dt,
                                      s.full_dt,
@@ -127,6 +128,8 @@ SavedState Simulation::save() const {
                                      s.solver.steps,
                                      s.solver.iterations,
                                      s.solver.retried,
+                                     s.solver.yield_iterations,
+                                     s.solver.yield_unconverged,
                                      s.solver.worst_residual,
                                      s.report.residual,
                                      s.report.velocity_error,
@@ -155,6 +158,7 @@ void Simulation::restore(const SavedState& saved) {
   const Offset walls = s.wall.pressure.size(), impulses = s.wall_forces.impulses().size();
   const std::size_t planes = s.planes.records.size();
   visit_arrays(restorer, s);
+  if (s.exact_yield()) s.viscous.exact_yield().visit_arrays(restorer);
   const Offset n = s.fluid.id.size();
   const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
                     s.fluid.increment.size() == n && s.fluid.fluid.size() == n && s.fluid.state.size() == n &&
@@ -166,7 +170,8 @@ void Simulation::restore(const SavedState& saved) {
   s.fluid.count = static_cast<Index>(n);
   require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, kinds);
   s.steps = v.steps, s.builds = v.builds;
-  s.solver = {v.solver_steps, v.solver_iterations, v.max_iterations, v.worst_residual, v.solver_retried};
+  s.solver = {v.solver_steps,     v.solver_iterations, v.max_iterations, v.worst_residual,
+              v.yield_iterations, v.yield_unconverged, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
   s.watch.lowest_energy = v.lowest_energy;
   s.rebuild_lists_as_saved();

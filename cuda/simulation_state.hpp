@@ -44,6 +44,7 @@ struct Simulation::State {
   double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0;
   std::int64_t steps = 0, builds = 0;
   double start_mass = 0;
+  Index start_count = 0;  // particles at the start: more than any id
   DepartureCounts departed;
   SolveReport report;
   SolverTotals solver;
@@ -54,6 +55,7 @@ struct Simulation::State {
   void build_lists();
   void restore_walls();
   void rebuild_lists_as_saved();
+  bool exact_yield() const { return setup.numerics.yield == YieldModel::exact; }
   bool lists_hold();
   PairContext pairs() const;
   double kick();

@@ -84,6 +84,7 @@ struct ExplicitHalf {
 ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
     : context_(c),
       numerics_(numerics),
+      base_(c, "base of the right hand side"),
       predicted_(c, "predicted velocities"),
       velocity_(c, "solved velocities"),
       diagonal_(c, "matrix diagonal"),
@@ -91,7 +92,8 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       wall_(c, "wall blocks"),
       weight_(c, "link weights"),
       work_(c),
-      multigrid_(c) {}
+      multigrid_(c),
+      yield_(c) {}
 
 void ViscousStep::resize(Index count, Offset pair_capacity) {
   constexpr Offset margin_percent = 1;
@@ -105,10 +107,12 @@ LinearSystem ViscousStep::system(const PairContext& c) const {
           c.flow.coupling};
 }
 
-SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
+SolveResult ViscousStep::advance(const PairContext& whole, const RowCells& rows, const Step& step,
                                  Offset pair_capacity, FluidArrays& fluid) {
   const Index n = fluid.count;
   resize(n, pair_capacity);
+  if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step));
+  const PairContext c = as_solved(whole);
   const bool is_explicit = numerics_.viscous_step == ViscousStepping::explicit_step;
   const auto theta = static_cast<Real>(is_explicit ? 1 : numerics_.theta);
   {
@@ -128,6 +132,8 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
   if (is_explicit)
     launch(context_, "explicit step", n,
            ExplicitStep{matrix, predicted_.span(), fluid.motion.span(), fluid.increment.span()});
+  else if (exact_yield_stress())
+    result = solve_exact(matrix, c, rows, step, fluid.increment);
   else
     result = solve_for_increment(matrix, rows, step, fluid.increment);
   launch(context_, "add increment", n,
@@ -145,6 +151,22 @@ Span<const Quad> ViscousStep::explicit_velocity(const FluidArrays& fluid) const 
   return predicted ? predicted_.span() : fluid.motion.span();
 }
 
+PairContext ViscousStep::as_solved(const PairContext& c) const {
+  return exact_yield_stress() ? yield_.viscous_part(c) : c;
+}
+
+WallYield ViscousStep::wall_yield() const { return exact_yield_stress() ? yield_.walls() : WallYield{}; }
+
+double ViscousStep::relative_augmentation() const {
+  return numerics_.yield_augmentation > 0 ? numerics_.yield_augmentation : yield_.balanced_augmentation();
+}
+
+Real ViscousStep::augmentation(const PairContext& c, const Step& step) const {
+  const double spacing = static_cast<double>(c.flow.spacing);
+  const double density = step.mass / (c.flow.dimensions == 2 ? square(spacing) : spacing * square(spacing));
+  return static_cast<Real>(relative_augmentation() * density * square(spacing) / step.dt);
+}
+
 SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const RowCells& rows,
                                              const Step& step, Buffer<Quad>& increment) {
   const Index n = matrix.size;
@@ -156,7 +178,7 @@ SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const R
   const double start = std::sqrt(sum(context_, work_.squared.span()));
   // A >= m, so ||u - u_exact|| <= ||r|| / m: the residual bounds the rms velocity error. Rounding keeps it
   // above about epsilon ||D delta||, D the diagonal of A, and a millionth of its start.
-  const double wanted = numerics_.tolerance * step.mass * step.kick * std::sqrt(static_cast<double>(n));
+  const double wanted = wanted_residual(step, n);
   const double rounding = larger(static_cast<double>(std::numeric_limits<Real>::epsilon()) *
                                      norm_of(increment.span(), Weighted::by_diagonal),
                                  8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * start);
@@ -166,6 +188,10 @@ SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const R
                              increment);
   result.right_hand_side = b;
   return result;
+}
+
+double ViscousStep::wanted_residual(const Step& step, Index count) const {
+  return numerics_.tolerance * step.mass * step.kick * std::sqrt(static_cast<double>(count));
 }
 
 void ViscousStep::forget(Buffer<Quad>& increment) {
@@ -193,7 +219,8 @@ SolveResult ViscousStep::solve(const LinearSystem& matrix, const RowCells& rows,
       break;
   }
   // The diagonal alone serves while a few iterations are enough: the coarse levels cost as much as some ten.
-  constexpr int patience = 4;
+  // An exact yield stress has many solves with one matrix, each of few iterations.
+  const int patience = exact_yield_stress() ? 30 : 4;
   SolveLimits first = limits;
   first.max_iterations = smaller(patience, limits.max_iterations);
   SolveResult result = conjugate_gradient(context_, matrix, first, increment, work_);

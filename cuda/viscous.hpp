@@ -4,6 +4,7 @@
 // or, as the paper prints it, u*
 #pragma once
 
+#include "exact_yield.hpp"
 #include "predictor.hpp"
 #include "setup.hpp"
 #include "solvers/multigrid.hpp"
@@ -26,27 +27,39 @@ class ViscousStep {
   // Sets the first guess to nothing.
   void forget(Buffer<Quad>& increment);
 
+  ExactYield& exact_yield() { return yield_; }
   Span<const Quad> velocity() const { return velocity_.span(); }
   // The share of the viscous forces that velocity() gives, theta or 0; and what gives the rest, until the
   // fluid moves on.
   double implicit_share() const;
   Span<const Quad> explicit_velocity(const FluidArrays&) const;
+  // The pairs with the viscosities that the step took, and its stresses on walls besides.
+  PairContext as_solved(const PairContext&) const;
+  WallYield wall_yield() const;
 
  private:
+  bool exact_yield_stress() const { return numerics_.yield == YieldModel::exact; }
   enum class Weighted { no, by_diagonal };
   double norm_of(Span<const Quad> v, Weighted);
   LinearSystem system(const PairContext&) const;
   SolveResult solve_for_increment(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
+  double relative_augmentation() const;
+  Real augmentation(const PairContext&, const Step&) const;
+  SolveResult solve_exact(const LinearSystem&, const PairContext&, const RowCells&, const Step&,
+                          Buffer<Quad>& increment);
+  double wanted_residual(const Step&, Index count) const;
+  SolveLimits exact_limits(const Step&, double start, Buffer<Quad>& increment);
   SolveResult solve(const LinearSystem&, const RowCells&, const SolveLimits&, Buffer<Quad>& increment);
   void resize(Index count, Offset pair_capacity);
 
   Context& context_;
   NumericsSetup numerics_;
-  Buffer<Quad> predicted_, velocity_, diagonal_, right_hand_side_;
+  Buffer<Quad> base_, predicted_, velocity_, diagonal_, right_hand_side_;
   Buffer<Symmetric3> wall_;
   Buffer<Real> weight_;
   SolverWorkspace work_;
   Multigrid multigrid_;
+  ExactYield yield_;
 };
 
 }  // namespace slagflow

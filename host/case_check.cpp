@@ -1,6 +1,7 @@
 // What concerns several tables of a case at once.
 #include <cmath>
 
+#include "constants.hpp"
 #include "host/case_sections.hpp"
 
 namespace slagflow {
@@ -167,6 +168,23 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
   }
 }
 
+// The exact yield stress is the minimum of an energy: one of an implicit Euler step with the radial operator.
+void check_exact_yield(const Case& c, CaseProblems& problems) {
+  const NumericsSetup& n = c.numerics;
+  if (n.yield != YieldModel::exact) return;
+  const std::string with = " with numerics.yield = \"exact\": allowed: ";
+  if (n.theta != 1) problems.add("numerics.theta", "value " + show(n.theta) + with + "1");
+  if (n.viscous_operator != ViscousOperator::radial)
+    problems.add("numerics.operator", "value \"laplacian\"" + with + "\"radial\"");
+  if (n.viscous_step != ViscousStepping::implicit_step)
+    problems.add("numerics.viscous_step", "value \"explicit\"" + with + "\"implicit\"");
+  for (const FluidSpec& fluid : c.fluids)
+    if (!allows_exact_yield(fluid.rheology))
+      problems.add("fluid." + fluid.name + ".rheology",
+                   "value \"" + std::string(fluid.info().name) + "\"" + with +
+                       "\"newtonian\", \"bingham\", \"herschel-bulkley\", \"carreau-yasuda\"");
+}
+
 }  // namespace
 
 void check_across_tables(const Case& c, CaseProblems& problems) {
@@ -174,6 +192,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_periodic(c, problems);
   check_measures(c, problems);
   check_stop(c, problems);
+  check_exact_yield(c, problems);
 }
 
 }  // namespace slagflow

@@ -13,6 +13,7 @@ const std::vector<std::string> departure_names{"remove", "stop"};
 const std::vector<std::string> solver_names{"multigrid", "conjugate_gradient", "sor", "jacobi"};
 const std::vector<std::string> operator_names{"radial", "laplacian"};
 const std::vector<std::string> stepping_names{"implicit", "explicit"};
+const std::vector<std::string> yield_names{"regularised", "exact"};
 const std::vector<std::string> explicit_names{"old_velocity", "predicted"};
 const std::vector<std::string> scheme_names{"slagflow", "paper"};
 const std::vector<std::string> measure_names{"front", "jet", "flow_rate", "volume", "profile", "force"};
@@ -257,13 +258,19 @@ void read_numerics(CaseTable& top, Case& c) {
   read_scheme(t, n);
   t.read_enum("operator", n.viscous_operator, operator_names);
   t.read_enum("explicit_part", n.explicit_part, explicit_names);
-  if (!t.says("viscosity_correction", "auto"))
+  if (t.says("viscosity_correction", "auto"))
+    n.viscosity_correction = 0;
+  else
     t.read("viscosity_correction", n.viscosity_correction, between(0.5, 2, "or \"auto\""));
   t.read_enum("viscous_step", n.viscous_step, stepping_names);
   Range diffusion_number = between(0, 1, "");
   diffusion_number.lower_bound = Bound::open;
   t.read("diffusion_number", n.diffusion_number, diffusion_number);
   t.read("theta", n.theta, between(0.5, 1, ""));
+  t.read_enum("yield", n.yield, yield_names);
+  t.read_integer("yield_iterations", n.yield_iterations, 1, 100000);
+  if (!t.says("yield_augmentation", "auto"))
+    t.read("yield_augmentation", n.yield_augmentation, above(0, "or \"auto\""));
   t.read_enum("solver", n.solver, solver_names);
   t.read("tolerance", n.tolerance, above(0, ""));
   t.read_integer("max_iterations", n.max_iterations, 1, 100000);

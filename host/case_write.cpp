@@ -162,6 +162,8 @@ void write_numerics(std::ostream& out, const Case& c) {
       << (n.viscosity_correction > 0 ? show(n.viscosity_correction) : "\"auto\"")
       << "\nviscous_step = " << name_of(stepping_names, n.viscous_step)
       << "\ndiffusion_number = " << show(n.diffusion_number) << "\ntheta = " << show(n.theta)
+      << "\nyield = " << name_of(yield_names, n.yield) << "\nyield_iterations = " << n.yield_iterations
+      << "\nyield_augmentation = " << (n.yield_augmentation > 0 ? show(n.yield_augmentation) : "\"auto\"")
       << "\nsolver = " << name_of(solver_names, n.solver) << "\ntolerance = " << show(n.tolerance)
       << "\nmax_iterations = " << n.max_iterations << "\nrelaxation = " << show(n.relaxation)
       << "\nskin = " << show(n.skin) << "\n\n";

@@ -29,12 +29,16 @@ std::int64_t peak_memory() {  // [bytes]
 
 Json viscous_of(const Json& solver, const SolverTotals& totals) {
   const auto steps = static_cast<double>(std::max<std::int64_t>(totals.steps, 1));
-  return Json::object()
-      .set("solver", solver)
+  Json viscous = Json::object();
+  viscous.set("solver", solver)
       .set("iterations_mean", static_cast<double>(totals.iterations) / steps)
       .set("iterations_max", totals.max_iterations)
       .set("worst_residual", totals.worst_residual)
       .set("retried_steps", totals.retried);
+  if (totals.yield_iterations > 0)
+    viscous.set("yield_iterations_mean", static_cast<double>(totals.yield_iterations) / steps)
+        .set("yield_unconverged_steps", totals.yield_unconverged);
+  return viscous;
 }
 
 Json departed_of(const Totals& totals) {

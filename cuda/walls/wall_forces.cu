@@ -18,6 +18,7 @@ struct AddImpulse {
   Box box;
   Real dt, theta;
   Span<const Quad> velocity, explicit_velocity;
+  WallYield yield;
   Span<const Index> id;
   Span<Impulse> impulse;
 
@@ -45,15 +46,30 @@ struct AddImpulse {
     if (wall.w >= 0) {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
       const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
-      const Real factor = dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+      const Real factor =
+          dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
       const Real weight = -factor * stick * f / (r2 + c.flow.softening);
       const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
       viscous = to_double(couple(c.flow.coupling, weight, d, xyz(wall) - mean));
+      if (yield.stress.data) {
+        const Real stress = (2 * yield.held[i] - 1) * yield_stress_of(w, i);
+        viscous -= to_double(dt * own.z * stress * wall_strain_factor(c.flow, stick, f, r2) * d);
+      }
     }
     const Vec3d at = to_double(xyz(c.wall.place[w]) + d);
     sum.pressure -= pressure, sum.viscous -= viscous;
     sum.pressure_torque -= cross(at, pressure), sum.viscous_torque -= cross(at, viscous);
     sum.work += dot(pressure + viscous, to_double(xyz(wall)));
+  }
+
+  // It is stored with the pairs of the fluid particle.
+  HOST_DEVICE Real yield_stress_of(Index w, Index i) const {
+    const Offset first = c.wall_list.row(i);
+    for (Index k = 0; k < c.wall_list.length[i]; ++k) {
+      const Offset at = first + k * ListView::stride();
+      if (c.wall_list.entry[at] == w) return yield.stress[at];
+    }
+    return 0;
   }
 };
 
@@ -91,9 +107,9 @@ void WallForces::add(const PairContext& c, const ListView& list, const WallArray
   const Lucy smoothing(static_cast<double>(c.flow.support), c.flow.dimensions);
   auto sweep = [&](auto box) {
     launch(context_, "wall forces", wall.count,
-           AddImpulse<Lucy, decltype(box)>{c, list, smoothing, box, static_cast<Real>(step.dt),
-                                           static_cast<Real>(step.theta), step.velocity,
-                                           step.explicit_velocity, wall.id.span(), impulse_.span()});
+           AddImpulse<Lucy, decltype(box)>{
+               c, list, smoothing, box, static_cast<Real>(step.dt), static_cast<Real>(step.theta),
+               step.velocity, step.explicit_velocity, step.yield, wall.id.span(), impulse_.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

@@ -2,7 +2,7 @@
 // momentum of fluid and walls together is kept.
 #pragma once
 
-#include "density.hpp"
+#include "exact_yield.hpp"
 #include "simulation.hpp"
 
 namespace slagflow {
@@ -11,6 +11,7 @@ namespace slagflow {
 struct WallForceStep {
   double dt, theta;
   Span<const Quad> velocity, explicit_velocity;
+  WallYield yield;
 };
 
 class WallForces {

@@ -40,6 +40,7 @@ struct Scheme {
   ViscousOperator form;
   ExplicitPart explicit_part;
   ViscousStepping stepping = ViscousStepping::implicit_step;
+  YieldModel yield = YieldModel::regularised;
 };
 
 class WallForcesOf : public testing::TestWithParam<Scheme> {};
@@ -51,6 +52,7 @@ TEST_P(WallForcesOf, BalanceTheMomentumOfEachStep) {
   s.numerics.viscous_operator = GetParam().form;
   s.numerics.explicit_part = GetParam().explicit_part;
   s.numerics.viscous_step = GetParam().stepping;
+  s.numerics.yield = GetParam().yield;
   s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
   Simulation simulation(s);
   Totals before = simulation.totals();
@@ -76,6 +78,7 @@ TEST_P(WallForcesOf, BalanceTheAngularMomentumWhereTheOperatorKeepsIt) {
   s.numerics.theta = GetParam().theta;
   s.numerics.explicit_part = GetParam().explicit_part;
   s.numerics.viscous_step = GetParam().stepping;
+  s.numerics.yield = GetParam().yield;
   s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
   Simulation simulation(s);
   FluidSnapshot particles;
@@ -106,7 +109,9 @@ INSTANTIATE_TEST_SUITE_P(
                            ViscousStepping::explicit_step},
                     Scheme{"Mixed", 0.6, ViscousOperator::radial, ExplicitPart::old_velocity},
                     Scheme{"AsPrinted", 0.5, ViscousOperator::radial, ExplicitPart::predicted},
-                    Scheme{"Laplacian", 0.5, ViscousOperator::laplacian, ExplicitPart::old_velocity}),
+                    Scheme{"Laplacian", 0.5, ViscousOperator::laplacian, ExplicitPart::old_velocity},
+                    Scheme{"ExactYield", 1, ViscousOperator::radial, ExplicitPart::old_velocity,
+                           ViscousStepping::implicit_step, YieldModel::exact}),
     [](const auto& p) { return p.param.name; });
 
 // A floor that carries a tank at rest, periodic sides: all of the weight, mean over a tenth of a second.

@@ -160,6 +160,9 @@ const std::vector<Wrong> wrong_cases{
     {22, "courant = 0", {"case.toml:22", "allowed: a number > 0.0 and <= 1.2"}},
     {22, "theta = 0.4", {"case.toml:22", "allowed: a number >= 0.5 and <= 1.0"}},
     {22, "relaxation = 2", {"case.toml:22", "allowed: a number > 0.0 and < 2.0"}},
+    {22, "yield = \"exactly\"", {"case.toml:22", "did you mean 'exact'? allowed: regularised, exact"}},
+    {22, "yield_iterations = 0", {"case.toml:22", "allowed: an integer from 1 to 100000"}},
+    {22, "yield_augmentation = 0", {"case.toml:22", "allowed: a number > 0.0 [or \"auto\"]"}},
     {22, "max_iterations = 0", {"case.toml:22", "allowed: an integer from 1 to 100000"}},
     {22, "sound_speed = 0", {"case.toml:22", "or \"auto\""}},
     {22, "sound_speed = 'fast'", {"case.toml:22", "value \"fast\" has the wrong type"}},
@@ -362,6 +365,16 @@ TEST(CaseErrors, AMessageStaysOnOneLineWhateverTheKeyHolds) {
   const std::string message = message_of(text_with(22, "\"a\\nb\" = 1"));
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_NE(message.find("a?b"), std::string::npos) << message;
+}
+
+TEST(CaseErrors, AnExactYieldStressNamesWhatItCannotGoWith) {
+  const std::string good = text_with(0, "");
+  for (const char* other :
+       {"numerics.theta=0.5", "numerics.operator=laplacian", "numerics.viscous_step=explicit"}) {
+    const std::string message = message_of(good, {"numerics.yield=exact", other});
+    EXPECT_NE(message.find("with numerics.yield = \"exact\": allowed: "), std::string::npos) << message;
+  }
+  EXPECT_EQ(message_of(good, {"numerics.yield=exact"}), "accepted");
 }
 
 TEST(CaseErrors, AMissingFileIsNamed) {

@@ -186,6 +186,44 @@ TEST(CaseFile, OverridesReachTablesAndLists) {
   EXPECT_EQ(c.numerics.theta, 1);  // the last one holds
 }
 
+TEST(CaseFile, SchemePaperIsThePapersViscousStep) {
+  const NumericsSetup n = parse_case(minimal, "a.toml", {"numerics.scheme=paper"}).numerics;
+  EXPECT_EQ(n.viscous_operator, ViscousOperator::laplacian);
+  EXPECT_EQ(n.explicit_part, ExplicitPart::predicted);
+  EXPECT_EQ(n.viscous_step, ViscousStepping::implicit_step);
+  EXPECT_EQ(n.theta, 0.5);
+  EXPECT_EQ(n.solver, ViscousSolver::sor);
+  EXPECT_EQ(n.viscosity_correction, 1);
+  const NumericsSetup ours = parse_case(minimal, "a.toml", {"numerics.scheme=slagflow"}).numerics;
+  EXPECT_EQ(ours.viscous_operator, ViscousOperator::radial);
+  EXPECT_EQ(ours.explicit_part, ExplicitPart::old_velocity);
+  EXPECT_EQ(ours.theta, 1);
+  EXPECT_EQ(ours.viscosity_correction, 0);
+}
+
+TEST(CaseFile, GivenKeysGoBeforeTheScheme) {
+  const NumericsSetup n =
+      parse_case(minimal, "a.toml",
+                 {"numerics.scheme=paper", "numerics.operator=radial", "numerics.explicit_part=old_velocity",
+                  "numerics.theta=0.75", "numerics.solver=jacobi", "numerics.viscosity_correction=auto"})
+          .numerics;
+  EXPECT_EQ(n.viscous_operator, ViscousOperator::radial);
+  EXPECT_EQ(n.explicit_part, ExplicitPart::old_velocity);
+  EXPECT_EQ(n.theta, 0.75);
+  EXPECT_EQ(n.solver, ViscousSolver::jacobi);
+  EXPECT_EQ(n.viscosity_correction, 0);
+}
+
+TEST(CaseFile, AWrittenCaseHoldsTheKeysOfItsScheme) {
+  const std::string written = to_toml(parse_case(minimal, "a.toml", {"numerics.scheme=paper"}));
+  const NumericsSetup again = parse_case(written, "b.toml").numerics;
+  EXPECT_EQ(again.viscous_operator, ViscousOperator::laplacian);
+  EXPECT_EQ(again.explicit_part, ExplicitPart::predicted);
+  EXPECT_EQ(again.theta, 0.5);
+  EXPECT_EQ(again.solver, ViscousSolver::sor);
+  EXPECT_EQ(again.viscosity_correction, 1);
+}
+
 TEST(CaseFile, ReadsEveryRheologyOfTheTable) {
   for (const RheologyInfo& info : rheologies) {
     std::string text = minimal;

@@ -1,9 +1,10 @@
-"""Below its yield stress a regularised fluid creeps: Bingham slag between plates."""
+"""Below its yield stress a regularised fluid creeps and one with an exact yield stress rests: Bingham slag between
+plates."""
 
 import numpy as np
 
 from verification.closed_forms import Papanastasiou
-from verification.suite import Run, relative_row
+from verification.suite import Run, bound_row, relative_row
 
 NAME = "creep"
 TITLE = "creep below yield, slag"
@@ -13,11 +14,13 @@ HALF_GAP, ACROSS = 0.01, 20
 def runs(quick):
     n, gap = ACROSS, 2 * HALF_GAP
     side = 8 * gap / n
-    return [Run(f"creep_{m:g}", "bingham_poiseuille", f"{n} across, m {m:g} s", {
-        "resolution.spacing": gap / n, "region.0.shapes.0.max": [side, side, gap],
-        "domain.max": [side, side, 1.2 * gap], "domain.min": [0, 0, -0.2 * gap],
-        "body_force.acceleration": [0.8 * 2.3 / 2600 / HALF_GAP, 0, 0], "fluid.slag.growth_exponent": m,
-        "output.end_time": 0.1, "output.interval": 0.1}) for m in ((1000,) if quick else (100, 1000, 10000))]
+    keys = {"resolution.spacing": gap / n, "region.0.shapes.0.max": [side, side, gap],
+            "domain.max": [side, side, 1.2 * gap], "domain.min": [0, 0, -0.2 * gap],
+            "body_force.acceleration": [0.8 * 2.3 / 2600 / HALF_GAP, 0, 0], "output.end_time": 0.1, "output.interval": 0.1}
+    regularised = [Run(f"creep_{m:g}", "bingham_poiseuille", f"{n} across, m {m:g} s",
+                       {**keys, "fluid.slag.growth_exponent": m}) for m in ((1000,) if quick else (100, 1000, 10000))]
+    return [*regularised, Run("creep_exact", "bingham_poiseuille", f"{n} across, yield exact",
+                              {**keys, "numerics.yield": "exact"})]
 
 
 def exact(result, z):
@@ -26,14 +29,16 @@ def exact(result, z):
 
 
 def rows(results):
-    return [relative_row(result.resolution, "fastest creep, wall stress 0.8 τ_B [m/s]",
-                         np.max(result.state().velocity[:, 0]), float(exact(result, np.array([HALF_GAP]))[0]), 0.1)
-            for result in results]
+    *regularised, rigid = results
+    fastest = lambda result: np.max(np.abs(result.state().velocity[:, 0]))
+    return [*(relative_row(result.resolution, "fastest creep, wall stress 0.8 τ_B [m/s]", fastest(result),
+                           float(exact(result, np.array([HALF_GAP]))[0]), 0.1) for result in regularised),
+            bound_row(rigid.resolution, "fastest creep, wall stress 0.8 τ_B [m/s]", fastest(rigid), (None, 1e-9))]
 
 
 def draw(axes, results):
     z = np.linspace(0, 2 * HALF_GAP, 200)
-    for result in results:
+    for result in results[:-1]:
         state = result.state()
         axes.semilogx(state.velocity[:, 0], 1e3 * state.position[:, 2], ".", color="#31688e", markersize=1)
         axes.semilogx(exact(result, z)[1:-1], 1e3 * z[1:-1], color="#d1652a")

@@ -1,0 +1,174 @@
+// The oracle of the implicit step with an exact yield stress: the dual problem over the stresses of all rows,
+//   min over |lambda_i| <= tau_i of 1/2 (b - B^T lambda).A^-1 (b - B^T lambda),  u = A^-1 (b - B^T lambda),
+// by projected gradients with Nesterov's momentum (A. Beck, M. Teboulle, SIAM J. Imaging Sci. 2 (2009) 183),
+// all matrices dense, and its duality gap as the proof that it has arrived.
+#pragma once
+
+#include "reference_viscous.hpp"
+
+namespace reference {
+
+// A row of B and its constant: dt V_i g x.(u_i - u_j), or dt V_i g x.(u_i - u_wall).
+struct StrainRow {
+  std::size_t i, j;  // j == i: a wall
+  Vec g;             // [1/m]
+  double offset;     // g . u_wall
+};
+
+inline double times(const StrainRow& r, const std::vector<double>& u) {
+  auto at = [&](std::size_t k) { return Vec{u[3 * k], u[3 * k + 1], u[3 * k + 2]}; };
+  return r.i == r.j ? dot(r.g, at(r.i)) - r.offset : dot(r.g, at(r.i) - at(r.j));
+}
+
+// The entries of G u of particle i; the same sum as in shear_rate_squared.
+inline std::vector<StrainRow> strain_rows(const World& w, std::size_t i) {
+  std::vector<StrainRow> rows;
+  auto root = [&](Vec d, double volume) {
+    const double f = -slope_over_distance(w, length(d)) / (dot(d, d) + w.softening());
+    return std::sqrt(w.correction * (w.dimensions + 2) * volume * f);
+  };
+  for (std::size_t j = 0; j < w.particles.size(); ++j)
+    if (j != i)
+      for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) {
+        rows.push_back({i, j, root(d, w.particles[j].volume) * d, 0});
+      });
+  for_wall_pairs(w, i, [&](const Wall& wall, Vec d) {
+    if (!wall.sticks) return;
+    const Vec g = root(d, 2 * no_slip_factor(w, wall, d) * w.wall_volume()) * d;
+    rows.push_back({i, i, g, dot(g, wall.v)});
+  });
+  return rows;
+}
+
+struct YieldSolution {
+  std::vector<double> velocity;
+  std::vector<double> held;  // |lambda_i| / tau_i
+  double gap = 0;            // primal less dual energy [J]: at least 1/2 sum m |u - u_exact|^2
+};
+
+class YieldOracle {
+ public:
+  // A u = b is the step of the viscous part alone; `yield`: tau_i [Pa].
+  YieldOracle(const World& w, const ViscousSystem& s, std::vector<double> yield, double dt)
+      : world_(w), system_(s), yield_(std::move(yield)), dt_(dt) {
+    for (std::size_t i = 0; i < w.particles.size(); ++i) rows_.push_back(strain_rows(w, i));
+    factor();
+  }
+
+  YieldSolution solve(int iterations) {
+    const double step = 1 / largest_eigenvalue();
+    Stresses stress = zero(), ahead = stress;
+    double t = 1;
+    for (int k = 0; k < iterations; ++k) {
+      const std::vector<double> u = velocity(ahead);
+      Stresses next = ahead;
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        for (std::size_t r = 0; r < rows_[i].size(); ++r) next[i][r] += step * times(rows_[i][r], u);
+        project(next[i], yield_[i]);
+      }
+      const double t_next = (1 + std::sqrt(1 + 4 * t * t)) / 2;
+      for (std::size_t i = 0; i < rows_.size(); ++i)
+        for (std::size_t r = 0; r < rows_[i].size(); ++r)
+          ahead[i][r] = next[i][r] + (t - 1) / t_next * (next[i][r] - stress[i][r]);
+      stress = next, t = t_next;
+    }
+    return judge(stress);
+  }
+
+ private:
+  using Stresses = std::vector<std::vector<double>>;
+
+  static double size(const std::vector<double>& v) {
+    double s = 0;
+    for (double x : v) s += x * x;
+    return std::sqrt(s);
+  }
+  static void project(std::vector<double>& v, double radius) {
+    const double s = size(v);
+    if (s > radius)
+      for (double& x : v) x *= radius / s;
+  }
+  Stresses zero() const {
+    Stresses s;
+    for (const auto& row : rows_) s.emplace_back(row.size(), 0.0);
+    return s;
+  }
+
+  // The rows of A^-1, once.
+  void factor() {
+    const std::size_t n = system_.matrix.size;
+    for (std::size_t k = 0; k < n; ++k) {
+      std::vector<double> e(n);
+      e[k] = 1;
+      inverse_.push_back(solve_cholesky(system_.matrix, e));
+    }
+  }
+  std::vector<double> times_inverse(const std::vector<double>& b) const {
+    std::vector<double> x(b.size());
+    for (std::size_t i = 0; i < b.size(); ++i)
+      for (std::size_t j = 0; j < b.size(); ++j) x[i] += inverse_[i][j] * b[j];
+    return x;
+  }
+  // b - dt sum V_i G_i^T lambda_i
+  std::vector<double> force(const Stresses& stress, std::vector<double> b) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      for (std::size_t r = 0; r < rows_[i].size(); ++r) {
+        const StrainRow& row = rows_[i][r];
+        const Vec f = (dt_ * world_.particles[i].volume * stress[i][r]) * row.g;
+        const double c[3] = {f.x, f.y, f.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+          b[3 * row.i + k] -= c[k];
+          if (row.j != row.i) b[3 * row.j + k] += c[k];
+        }
+      }
+    return b;
+  }
+  std::vector<double> velocity(const Stresses& s) const {
+    return times_inverse(force(s, system_.right_hand_side));
+  }
+
+  // Of G A^-1 G^T dt V, by power iteration, with a margin.
+  double largest_eigenvalue() const {
+    Stresses v = zero();
+    for (auto& row : v)
+      for (std::size_t r = 0; r < row.size(); ++r) row[r] = 1 + static_cast<double>(r % 3);
+    double value = 0;
+    for (int k = 0; k < 50; ++k) {
+      std::vector<double> u = times_inverse(force(v, std::vector<double>(system_.matrix.size)));
+      double norm = 0;
+      for (std::size_t i = 0; i < rows_.size(); ++i)
+        for (std::size_t r = 0; r < v[i].size(); ++r) {
+          StrainRow row = rows_[i][r];
+          row.offset = 0;
+          v[i][r] = -times(row, u), norm += v[i][r] * v[i][r];
+        }
+      value = std::sqrt(norm);
+      for (auto& row : v)
+        for (double& x : row) x /= value;
+    }
+    return 1.2 * value;
+  }
+
+  YieldSolution judge(const Stresses& stress) const {
+    YieldSolution s{velocity(stress), {}, 0};
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      double rates = 0, work = 0;
+      for (std::size_t r = 0; r < rows_[i].size(); ++r) {
+        const double rate = times(rows_[i][r], s.velocity);
+        rates += rate * rate, work += rate * stress[i][r];
+      }
+      s.gap += dt_ * world_.particles[i].volume * (yield_[i] * std::sqrt(rates) - work);
+      s.held.push_back(yield_[i] > 0 ? size(stress[i]) / yield_[i] : 1);
+    }
+    return s;
+  }
+
+  const World& world_;
+  const ViscousSystem& system_;
+  std::vector<double> yield_;
+  double dt_;
+  std::vector<std::vector<StrainRow>> rows_;
+  std::vector<std::vector<double>> inverse_;
+};
+
+}  // namespace reference
