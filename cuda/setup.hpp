@@ -99,7 +99,7 @@ struct NumericsSetup {
   ViscousOperator viscous_operator = ViscousOperator::radial;
   ExplicitPart explicit_part = ExplicitPart::old_velocity;
   double theta = 1;    // 1 backward Euler, 0.5 Crank-Nicolson
-  double skin = 0.12;  // of the neighbour list, in support radii
+  double skin = 0.06;  // of the neighbour list, in support radii
   ViscousSolver solver = ViscousSolver::multigrid;
   double tolerance = 1e-2;  // rms velocity error of the solve, in gravity kicks g dt
   int max_iterations = 200;
