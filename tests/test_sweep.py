@@ -166,6 +166,39 @@ class Figures(unittest.TestCase):
             self.assertGreater((self.table.parent / "x.png").stat().st_size, 10000)
 
 
+class Resolution(unittest.TestCase):
+    def study(self):
+        try:
+            from plotting import resolution
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        return resolution
+
+    def test_finds_order_and_limit(self):
+        order, limit = self.study().extrapolate([(h, 0.2 + 3 * h**1.5) for h in (4e-3, 2e-3, 1e-3)])
+        self.assertAlmostEqual(order, 1.5, 9)
+        self.assertAlmostEqual(limit, 0.2, 9)
+
+    def test_says_where_there_is_none(self):
+        extrapolate = self.study().extrapolate
+        self.assertEqual(extrapolate([(4, 1.0), (2, 1.2), (1, 1.1)]), (None, None))  # to and fro
+        self.assertEqual(extrapolate([(4, 1.0), (2, 1.1), (1, 1.3)]), (None, None))  # away
+        self.assertEqual(extrapolate([(4, 1.0), (2, 1.2)]), (None, None))
+
+    def test_reads_and_draws_a_sweep(self):
+        study = self.study()
+        with tempfile.TemporaryDirectory() as folder:
+            table = Path(folder) / "results.csv"
+            rows = [["done", n, h, 0.18 + 2 * h, 0.3 - 5 * h] for n in (443, 49) for h in (0.001, 0.004, 0.002)]
+            with open(table, "w", newline="") as file:
+                csv.writer(file).writerows([["status", "N", "spacing", "jet.travelling_time", "jet.tan_theta"], *rows])
+            series = study.read_series(table)
+            self.assertIn("N = 443: 0.188 (4 mm), 0.184 (2 mm), 0.182 (1 mm); order 1.00, extrapolated 0.18",
+                          next(study.table(series)))
+            study.draw(series, Path(folder) / "x.png")
+            self.assertGreater((Path(folder) / "x.png").stat().st_size, 10000)
+
+
 if __name__ == "__main__":
     outcome = unittest.main(exit=False).result
     sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())
