@@ -60,21 +60,22 @@ double JetGeometry::fallen(Vec3d position) const {
 
 JetShape measure_jet(const JetGeometry& jet, const std::vector<Vec3d>& positions) {
   const double drop = jet.drop();
-  double sum = 0, count = 0;
-  std::vector<double> inner;
+  double sum = 0;
+  std::vector<double> inner, beyond;
   for (const Vec3d& p : positions) {
     const double fallen = jet.fallen(p);
     if (fallen > drop) {
       sum += jet.outward_of(p);
-      ++count;
+      beyond.push_back(jet.outward_of(p));
     }
     if (std::abs(fallen - 2 * drop / 3) <= jet.spacing) inner.push_back(jet.outward_of(p));
   }
   JetShape shape;
-  if (count > 0) shape.tan_theta = sum / count / drop;
-  if (!inner.empty()) shape.inner_offset = percentile(std::move(inner), 0.02);
-  const double offset = std::isnan(shape.inner_offset) ? shape.tan_theta * drop : shape.inner_offset;
-  if (!std::isnan(offset)) shape.flow_class = flow_classes[offset <= 2 * jet.spacing ? 1 : 2];
+  if (!beyond.empty()) shape.tan_theta = sum / static_cast<double>(beyond.size()) / drop;
+  if (inner.empty()) inner = std::move(beyond);  // a sheet with a gap, a lump that tore off
+  if (inner.empty()) return shape;
+  shape.inner_offset = percentile(std::move(inner), 0.02);
+  shape.flow_class = flow_classes[shape.inner_offset <= 2 * jet.spacing ? 1 : 2];
   return shape;
 }
 

@@ -9,10 +9,9 @@
 // line of the history at or after the arrival, o being the coordinate along `outward` from the lip:
 //   tan_theta    = mean o of the particles in the domain beyond `bottom` / D
 //   inner_offset = 2nd percentile of o of the particles within one spacing of the level 2 D / 3 below the lip
-//                  (the side of the flow that faces the wall; linear between neighbouring values)
-//   class        = "wall-flow" if inner_offset <= 2 spacings, else "free-jet"; without particles at that
-//   level
-//                  tan_theta D takes the place of inner_offset.
+//                  (the side of the flow that faces the wall; linear between neighbouring values), or where
+//                  there are none, of the particles beyond `bottom`
+//   class        = "wall-flow" if inner_offset <= 2 spacings, else "free-jet"
 #pragma once
 
 #include <array>

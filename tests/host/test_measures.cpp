@@ -73,7 +73,12 @@ TEST(Jet, IgnoresAFewStraysAtTheInnerSurface) {
   EXPECT_EQ(measure_jet(jet_geometry(), positions).flow_class, "free-jet");
 }
 
-TEST(Jet, TakesTheAngleWhereTheSheetHasAGap) {
+TEST(Jet, LooksAtWhatHasFallenWhereTheSheetHasAGap) {
+  // A lump on the wall, 3 spacings from it in the mean.
+  const JetShape lump = measure_jet(jet_geometry(), {{0.0115, 0, -0.14}, {0.0145, 0, -0.14}});
+  EXPECT_NEAR(lump.inner_offset, 0.0015 + 0.02 * 0.003, 1e-12);
+  EXPECT_NEAR(lump.tan_theta, 0.003 / 0.15, 1e-12);
+  EXPECT_EQ(lump.flow_class, "wall-flow");
   EXPECT_EQ(measure_jet(jet_geometry(), {{0.0115, 0, -0.14}}).flow_class, "wall-flow");  // 1.5 spacings
   EXPECT_EQ(measure_jet(jet_geometry(), {{0.0125, 0, -0.14}}).flow_class, "free-jet");   // 2.5 spacings
 }
