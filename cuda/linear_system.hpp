@@ -115,7 +115,6 @@ struct SolveResult {
   double right_hand_side = 0;  // ||b||
   bool converged = false;
   int yield_iterations = 0;  // of an exact yield stress (exact_yield.hpp)
-  bool yield_converged = false;
 };
 
 }  // namespace slagflow

@@ -202,8 +202,13 @@ SolveResult Simulation::State::try_solve() {
   solver.iterations += result.iterations;
   solver.max_iterations = larger(solver.max_iterations, result.iterations);
   solver.yield_iterations += result.yield_iterations;
+  if (ended_at_yield_iterations(result)) ++solver.yield_unconverged;
   if (!std::isfinite(result.residual)) check_finite();
   return result;
+}
+
+bool Simulation::State::ended_at_yield_iterations(const SolveResult& result) const {
+  return exact_yield() && !result.converged && result.yield_iterations == setup.numerics.yield_iterations;
 }
 
 // A solve that does not converge is tried again with half the time step, and from a first guess of nothing.
@@ -220,7 +225,6 @@ void Simulation::State::solve() {
     result = try_solve();
   }
   solver.steps += 1;
-  if (exact_yield() && !result.yield_converged) ++solver.yield_unconverged;
   solver.worst_residual = larger(solver.worst_residual, report.residual);
 }
 
@@ -228,8 +232,12 @@ void Simulation::State::give_up(const SolveResult& result) {
   std::ostringstream message;
   message << "the viscous solve did not converge in step " << steps + 1 << " at " << time
           << " s, nor with a time step down to " << dt << " s: residual " << report.residual << " after "
-          << result.iterations
-          << " iterations; try more numerics.max_iterations, solver \"multigrid\" or a smaller courant";
+          << result.iterations << " iterations";
+  if (ended_at_yield_iterations(result))
+    message << ", the exact yield stress after numerics.yield_iterations = " << result.yield_iterations
+            << "; try more yield_iterations, a larger tolerance or a smaller courant";
+  else
+    message << "; try more numerics.max_iterations, solver \"multigrid\" or a smaller courant";
   throw Error(message.str());
 }
 

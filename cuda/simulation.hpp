@@ -100,7 +100,7 @@ struct SolverTotals {
   std::int64_t steps = 0, iterations = 0;
   int max_iterations = 0;
   double worst_residual = 0;
-  // With an exact yield stress: its iterations, and the steps that ended at the most allowed.
+  // With an exact yield stress: its iterations, and the solves that ended at the most allowed.
   std::int64_t yield_iterations = 0, yield_unconverged = 0;
   std::int64_t retried = 0;  // solves that did not converge and were repeated with half the time step
 };

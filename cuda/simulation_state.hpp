@@ -63,6 +63,7 @@ struct Simulation::State {
   SolveResult try_solve();
   void solve();
   [[noreturn]] void give_up(const SolveResult&);
+  bool ended_at_yield_iterations(const SolveResult&) const;
   bool knows_wall_forces() const;
   void add_wall_forces();
   void look();

@@ -65,12 +65,11 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
     launch(context_, "residual", n,
            StartResidual{matrix, increment.span(), work_.residual.span(), work_.squared.span()});
     result.residual = std::sqrt(sum(context_, work_.squared.span()));
-    result.yield_converged = rates_agree && result.residual <= wanted;
-    if (result.yield_converged || result.yield_iterations == numerics_.yield_iterations) break;
+    result.converged = rates_agree && result.residual <= wanted;
+    if (result.converged || result.yield_iterations == numerics_.yield_iterations) break;
     const SolveResult inner = solve(matrix, rows, exact_limits(step, result.residual, increment), increment);
     result.iterations += inner.iterations;
-    result.converged = inner.converged || inner.residual <= wanted;
-    if (!result.converged) break;
+    if (!inner.converged && !(inner.residual <= wanted)) break;
     launch(context_, "velocity", n, NewVelocity{predicted_.span(), increment.span(), velocity_.span()});
     const ExactYield::Rates rates = yield_.update(c, velocity_.span());
     gap += rates.gap, change += rates.change;

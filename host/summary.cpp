@@ -37,7 +37,7 @@ Json viscous_of(const Json& solver, const SolverTotals& totals) {
       .set("retried_steps", totals.retried);
   if (totals.yield_iterations > 0)
     viscous.set("yield_iterations_mean", static_cast<double>(totals.yield_iterations) / steps)
-        .set("yield_unconverged_steps", totals.yield_unconverged);
+        .set("yield_unconverged_solves", totals.yield_unconverged);
   return viscous;
 }
 

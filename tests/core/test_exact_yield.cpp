@@ -1,4 +1,5 @@
 // The exact yield stress against a dense convex solver, and what it must keep.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "backend/error.hpp"
@@ -66,7 +67,7 @@ struct Compared {
 
 Compared compare(Scene& scene, double tau) {
   const Solved solved = advance(scene, exact_numerics());
-  EXPECT_TRUE(solved.result.yield_converged) << solved.result.yield_iterations;
+  EXPECT_TRUE(solved.result.converged) << solved.result.yield_iterations;
   std::vector<reference::Vec> predicted;
   for (const Quad& q : assemble(scene, dt, 1).predicted) predicted.push_back(to_host(q));
   const auto system = reference::viscous_system(scene.world, predicted, dt, 1);
@@ -152,13 +153,45 @@ TEST(ExactYield, AStepThatStopsAtTheMostIterationsSaysSo) {
   make_bingham(scene, 1500);
   NumericsSetup n = exact_numerics();
   n.yield_iterations = 1;
-  EXPECT_FALSE(advance(scene, n).result.yield_converged);
+  EXPECT_FALSE(advance(scene, n).result.converged);
 }
 
 SimulationSetup exact_dam() {
   SimulationSetup s = dam();
   s.numerics.yield = YieldModel::exact;
   return s;
+}
+
+TEST(ExactYield, AStepThatStopsAtTheMostIterationsIsRetriedWithASmallerStep) {
+  SimulationSetup s = exact_dam();
+  Simulation enough(s);
+  enough.step();
+  ASSERT_EQ(enough.solver_totals().retried, 0);
+  s.numerics.yield_iterations = static_cast<int>(enough.solver_totals().yield_iterations) - 1;
+  ASSERT_GE(s.numerics.yield_iterations, 1);
+  Simulation simulation(s);
+  const double full = simulation.time_step();
+  simulation.step();
+  EXPECT_GE(simulation.solver_totals().retried, 1);
+  EXPECT_EQ(simulation.solver_totals().retried, simulation.solver_totals().yield_unconverged);
+  EXPECT_TRUE(simulation.last_solve().converged);
+  EXPECT_LT(simulation.time_step(), 0.6 * full);
+  EXPECT_DOUBLE_EQ(simulation.time(), simulation.time_step());
+}
+
+TEST(ExactYield, AStepThatNeverConvergesEndsTheRun) {
+  SimulationSetup s = exact_dam();
+  s.numerics.yield_iterations = 1, s.numerics.tolerance = 1e-6;
+  Simulation simulation(s);
+  try {
+    simulation.step();
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("did not converge in step 1"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("numerics.yield_iterations = 1; try more yield_iterations"));
+  }
+  EXPECT_EQ(simulation.solver_totals().retried, 4);
+  EXPECT_EQ(simulation.solver_totals().yield_unconverged, 5);
 }
 
 // Across rebuilds of the lists, with particles that leave and walls that move.
