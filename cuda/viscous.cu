@@ -176,12 +176,8 @@ SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const R
          StartFromPredicted{matrix, predicted_.span(), increment.span(), right_hand_side_.span(),
                             work_.residual.span(), work_.squared.span()});
   const double start = std::sqrt(sum(context_, work_.squared.span()));
-  // A >= m, so ||u - u_exact|| <= ||r|| / m: the residual bounds the rms velocity error. Rounding keeps it
-  // above about epsilon ||D delta||, D the diagonal of A, and a millionth of its start.
-  const double wanted = wanted_residual(step, n);
-  const double rounding = larger(static_cast<double>(std::numeric_limits<Real>::epsilon()) *
-                                     norm_of(increment.span(), Weighted::by_diagonal),
-                                 8 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * start);
+  // A >= m, so ||u - u_exact|| <= ||r|| / m: the residual bounds the rms velocity error.
+  const double wanted = wanted_residual(step, n), rounding = rounding_residual(increment.span(), start);
   SolveResult result = solve(matrix, rows,
                              {larger(wanted, rounding), wanted * wanted / step.mass, numerics_.max_iterations,
                               numerics_.relaxation, start},
@@ -192,6 +188,13 @@ SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const R
 
 double ViscousStep::wanted_residual(const Step& step, Index count) const {
   return numerics_.tolerance * step.mass * step.kick * std::sqrt(static_cast<double>(count));
+}
+
+// Rounding keeps the residual above about epsilon ||D delta||, D the diagonal of A, and a millionth of its
+// start.
+double ViscousStep::rounding_residual(Span<const Quad> increment, double start) {
+  constexpr double epsilon = std::numeric_limits<Real>::epsilon();
+  return larger(epsilon * norm_of(increment, Weighted::by_diagonal), 8 * epsilon * start);
 }
 
 void ViscousStep::forget(Buffer<Quad>& increment) {

@@ -48,6 +48,7 @@ class ViscousStep {
   SolveResult solve_exact(const LinearSystem&, const PairContext&, const RowCells&, const Step&,
                           Buffer<Quad>& increment);
   double wanted_residual(const Step&, Index count) const;
+  double rounding_residual(Span<const Quad> increment, double start);
   SolveLimits exact_limits(const Step&, double start, Buffer<Quad>& increment);
   SolveResult solve(const LinearSystem&, const RowCells&, const SolveLimits&, Buffer<Quad>& increment);
   void resize(Index count, Offset pair_capacity);

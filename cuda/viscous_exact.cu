@@ -1,6 +1,4 @@
 // The implicit step with an exact yield stress: the iteration of exact_yield.hpp around the linear solver.
-#include <limits>
-
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
 #include "viscous.hpp"
@@ -59,13 +57,15 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
       tolerance_share * numerics_.tolerance * step.kick / (relative_augmentation() * spacing);
   SolveResult result;
   bool rates_agree = false;
-  double gap = 0, change = 0;
+  double gap = 0, change = 0, start = 0;
   for (;;) {
     yield_.add_force(c, static_cast<Real>(step.dt), base_.span(), right_hand_side_.span());
     launch(context_, "residual", n,
            StartResidual{matrix, increment.span(), work_.residual.span(), work_.squared.span()});
     result.residual = std::sqrt(sum(context_, work_.squared.span()));
-    result.converged = rates_agree && result.residual <= wanted;
+    if (result.yield_iterations == 0) start = result.residual;
+    result.converged =
+        rates_agree && result.residual <= larger(wanted, rounding_residual(increment.span(), start));
     if (result.converged || result.yield_iterations == numerics_.yield_iterations) break;
     const SolveResult inner = solve(matrix, rows, exact_limits(step, result.residual, increment), increment);
     result.iterations += inner.iterations;
@@ -83,12 +83,9 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
 
 // A tenth of the start's residual, however small: a plug must come to rest, not stop within a tolerance.
 SolveLimits ViscousStep::exact_limits(const Step& step, double start, Buffer<Quad>& increment) {
-  constexpr double epsilon = std::numeric_limits<Real>::epsilon();
   const double wanted =
       smaller(0.1 * start, tolerance_share * wanted_residual(step, static_cast<Index>(increment.size())));
-  const double rounding =
-      larger(epsilon * norm_of(increment.span(), Weighted::by_diagonal), 8 * epsilon * start);
-  const double residual = larger(wanted, rounding);
+  const double residual = larger(wanted, rounding_residual(increment.span(), start));
   return {residual, residual * residual / step.mass, numerics_.max_iterations, numerics_.relaxation, start};
 }
 
