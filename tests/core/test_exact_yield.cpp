@@ -198,17 +198,18 @@ TEST(ExactYield, AStepThatNeverConvergesEndsTheRun) {
 TEST(ExactYield, ARestoredRunGoesOnToTheSameBits) {
   SimulationSetup s = exact_dam();
   s.measure_walls = true;
+  s.numerics.skin = 0.02;  // lists are soon built anew
   for (WallBody& body : s.bodies) {
     body.motion.kind = MotionKind::sine, body.motion.frequency = 20;
     body.motion.amplitude = {0.4 * dx, 0, 0.1 * dx};
   }
   Simulation whole(s);
-  for (int k = 0; k < 60; ++k) whole.step();
+  for (int k = 0; k < 15; ++k) whole.step();
   const SavedState saved = whole.save();
   Simulation restored(s);
   restored.restore(saved);
   const std::int64_t builds = whole.list_builds();
-  for (int k = 0; k < 60; ++k) whole.step(), restored.step();
+  for (int k = 0; k < 60 && whole.list_builds() < builds + 2; ++k) whole.step(), restored.step();
   ASSERT_GT(whole.list_builds(), builds + 1);
   const SavedState a = whole.save(), b = restored.save();
   ASSERT_EQ(a.size(), b.size());
