@@ -43,17 +43,21 @@ struct Scheme {
   YieldModel yield = YieldModel::regularised;
 };
 
+void solve_well(SimulationSetup& s, const Scheme& scheme) {
+  s.numerics.theta = scheme.theta;
+  s.numerics.viscous_operator = scheme.form;
+  s.numerics.explicit_part = scheme.explicit_part;
+  s.numerics.viscous_step = scheme.stepping;
+  s.numerics.yield = scheme.yield;
+  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
+}
+
 class WallForcesOf : public testing::TestWithParam<Scheme> {};
 
 // Momentum after - before = gravity - impulse on the walls; rounding of about 300 velocities to epsilon.
 TEST_P(WallForcesOf, BalanceTheMomentumOfEachStep) {
   SimulationSetup s = moving_dam();
-  s.numerics.theta = GetParam().theta;
-  s.numerics.viscous_operator = GetParam().form;
-  s.numerics.explicit_part = GetParam().explicit_part;
-  s.numerics.viscous_step = GetParam().stepping;
-  s.numerics.yield = GetParam().yield;
-  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
+  solve_well(s, GetParam());
   Simulation simulation(s);
   Totals before = simulation.totals();
   for (int step = 0; step < 10; ++step) {
@@ -75,11 +79,7 @@ TEST_P(WallForcesOf, BalanceTheAngularMomentumWhereTheOperatorKeepsIt) {
   if (GetParam().form != ViscousOperator::radial) GTEST_SKIP() << "the laplacian does not keep it";
   SimulationSetup s = moving_dam();
   s.domain.periodic = {false, false, false};
-  s.numerics.theta = GetParam().theta;
-  s.numerics.explicit_part = GetParam().explicit_part;
-  s.numerics.viscous_step = GetParam().stepping;
-  s.numerics.yield = GetParam().yield;
-  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
+  solve_well(s, GetParam());
   Simulation simulation(s);
   FluidSnapshot particles;
   Totals before = simulation.totals();
