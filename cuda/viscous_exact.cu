@@ -1,6 +1,7 @@
 // The implicit step with an exact yield stress: the iteration of exact_yield.hpp around the linear solver.
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
+#include "solvers/residual.hpp"
 #include "viscous.hpp"
 
 namespace slagflow {
@@ -19,18 +20,6 @@ struct StartExact {
   Span<Quad> base;
   HOST_DEVICE void operator()(Index i) const {
     base[i] = quad(xyz(system.right_hand_side[i]) - system.apply(i, predicted), 0);
-  }
-};
-
-struct StartResidual {
-  LinearSystem system;
-  Span<const Quad> increment;
-  Span<Quad> residual;
-  Span<double> squared;
-  HOST_DEVICE void operator()(Index i) const {
-    const Vec3 r = xyz(system.right_hand_side[i]) - system.apply(i, increment);
-    residual[i] = quad(r, 0);
-    squared[i] = dot(to_double(r), to_double(r));
   }
 };
 
@@ -61,7 +50,7 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
   for (;;) {
     yield_.add_force(c, static_cast<Real>(step.dt), base_.span(), right_hand_side_.span());
     launch(context_, "residual", n,
-           StartResidual{matrix, increment.span(), work_.residual.span(), work_.squared.span()});
+           Residual{matrix, increment.span(), work_.residual.span(), work_.squared.span()});
     result.residual = std::sqrt(sum(context_, work_.squared.span()));
     if (result.yield_iterations == 0) start = result.residual;
     result.converged =
