@@ -126,7 +126,11 @@ File File::open(const std::string& path, Access access) {
   const Handle unlocked = unlocked_access();
   const unsigned flags = access == Access::change ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
   File file(Handle(H5Fopen(path.c_str(), flags, unlocked), H5Fclose), path);
-  if (file.id() < 0) file.fail("open");
+  if (file.id() < 0) {
+    // HDF5 has no reason of the system for a file that vanished while it was opening it.
+    if (::access(path.c_str(), F_OK) != 0) throw Error("cannot open " + path + ": " + std::strerror(errno));
+    file.fail("open");
+  }
   if (access == Access::change) {
     void* descriptor = nullptr;
     file.check(H5Fget_vfd_handle(file.id(), H5P_DEFAULT, &descriptor), "open");
