@@ -25,6 +25,13 @@ HOST_DEVICE inline Real held_share(Real stress_squared, Real yield) {
   return stress_squared > square(yield) ? yield / std::sqrt(stress_squared) : Real(1);
 }
 
+// [Pa s] of the part that is no yield stress.
+HOST_DEVICE inline Real viscous_part_of(Rheology r, Real shear_rate) {
+  const int k = yield_parameter(r.kind);
+  if (k >= 0) r.parameters[k] = 0;
+  return viscosity(r, shear_rate);
+}
+
 struct ViscousPart {
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> fluid;
@@ -32,11 +39,8 @@ struct ViscousPart {
   Span<const Quad> from;
   Span<Quad> state;
   HOST_DEVICE void operator()(Index i) const {
-    Rheology r = fluids[fluid[i]].rheology;
-    const int k = yield_parameter(r.kind);
-    if (k >= 0) r.parameters[k] = 0;
     const Quad s = from[i];
-    state[i] = {s.x, viscosity(r, shear_rate[i]), s.z, s.w};
+    state[i] = {s.x, viscous_part_of(fluids[fluid[i]].rheology, shear_rate[i]), s.z, s.w};
   }
 };
 
@@ -177,6 +181,23 @@ struct Rescale {
   }
 };
 
+struct StressLength {
+  ListView fluid_list, wall_list;
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> fluid;
+  Span<const Real> own, wall, held, shear_rate;
+  Span<Real> result;
+  HOST_DEVICE void operator()(Index i) const {
+    Real squares = 0;
+    for (Index k = 0; k < fluid_list.length[i]; ++k)
+      squares += square(own[fluid_list.row(i) + k * ListView::stride()]);
+    for (Index k = 0; k < wall_list.length[i]; ++k)
+      squares += square(wall[wall_list.row(i) + k * ListView::stride()]);
+    const Real viscous = viscous_part_of(fluids[fluid[i]].rheology, shear_rate[i]) * shear_rate[i];
+    result[i] = held[i] * std::sqrt(squares) + viscous;
+  }
+};
+
 template <class Run>
 void with_box(const PairContext& c, Run run) {
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
@@ -234,6 +255,12 @@ void ExactYield::add_force(const PairContext& c, Real dt, Span<const Quad> base,
            AddForce<decltype(loop.smoothing), decltype(loop.box)>{
                loop, own_.span(), other_.span(), wall_.span(), held_.span(), dt, base, force});
   });
+}
+
+void ExactYield::measure_stress(const PairContext& c, Span<const Real> shear_rate, Span<Real> result) {
+  launch(context_, "shear stress", c.fluid.count,
+         StressLength{c.fluid_list, c.wall_list, c.fluids, c.fluid.fluid, own_.span(), wall_.span(),
+                      held_.span(), shear_rate, result});
 }
 
 ExactYield::Rates ExactYield::update(const PairContext& c, Span<const Quad> velocity) {

@@ -62,6 +62,9 @@ class ExactYield {
   void balance(double gap, double change);
   double balanced_augmentation() const { return balanced_; }
 
+  // |tau| [Pa] of each particle: f |p| and that of the viscous part at these shear rates.
+  void measure_stress(const PairContext&, Span<const Real> shear_rate, Span<Real> result);
+
   // f of each particle: 1 where it has not yielded.
   Span<const Real> held() const { return held_.span(); }
   WallYield walls() const { return {wall_.span(), held_.span()}; }

@@ -121,8 +121,9 @@ HOST_DEVICE inline Real viscosity(const Rheology& r, Real shear_rate) {
   return visit(r, [=](auto model) { return model.viscosity(shear_rate); });
 }
 
-HOST_DEVICE inline bool yielded(const Rheology& r, Real shear_rate) {
-  return visit(r, [=](auto model) { return model.yielded(shear_rate); });
+// Whether a stress [Pa] exceeds the yield stress.
+HOST_DEVICE inline bool yielded(const Rheology& r, Real stress) {
+  return visit(r, [=](auto model) { return model.yielded(stress); });
 }
 
 }  // namespace slagflow

@@ -1,6 +1,7 @@
 #include "backend/launch.hpp"
 #include "lane_math.hpp"
 #include "pair_pressure.hpp"
+#include "pair_viscosity.hpp"
 #include "predictor.hpp"
 #include "smoothing/lucy.hpp"
 
@@ -25,15 +26,6 @@ struct PredictAndAssemble {
     return {sum, sum, sum};
   }
 
-  // Within a fluid the mean: then the operator dissipates exactly sum V eta gamma^2 of the shear rates (3),
-  // and a plug does not melt at its rim. Between two fluids the harmonic mean, which carries one stress
-  // through both. `j`: where the others are.
-  HOST_DEVICE Lanes pair_viscosity(Index i, Lanes own, Lanes other, const Index* j) const {
-    const Lanes mean = Real(0.5) * (own + other);
-    if (c.fluids.size == 1) return mean;
-    return select(same(c.fluid.fluid, j, c.fluid.fluid[i]), mean, own * other / mean);
-  }
-
   HOST_DEVICE void operator()(Index i) const {
     const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
@@ -53,7 +45,7 @@ struct PredictAndAssemble {
         const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
         acceleration -= (other.w * f * pair_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
         // The same bits for j and i.
-        const Lanes mean = pair_viscosity(i, Lanes(own.y), other.y, j);
+        const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
         weight = (factor * (own.z * other.z) * f) * (mean + c.flow.augmentation) / (r2 + c.flow.softening);
         diagonal += pair_diagonal(weight, d);
       }

@@ -23,7 +23,8 @@ struct FluidSnapshot {
   std::vector<float> density;            // [kg/m^3]
   std::vector<float> viscosity;          // [Pa s]
   std::vector<float> shear_rate;         // [1/s]
-  std::vector<std::uint8_t> yielded;     // 1 where the stress exceeds the yield stress
+  std::vector<float> shear_stress;       // [Pa]
+  std::vector<std::uint8_t> yielded;     // 1 where that exceeds the yield stress
   std::vector<std::uint8_t> fluid;       // index of the fluid
   std::vector<std::int64_t> id;          // constant through the run
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "backend/launch.hpp"
+#include "shear_stress.hpp"
 #include "simulation_state.hpp"
 
 namespace slagflow {
@@ -11,15 +12,20 @@ namespace {
 struct FlagYielded {
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> fluid;
-  Span<const Real> shear_rate;
+  Span<const Real> stress;
   Span<std::uint8_t> result;
   Span<const Real> held{};  // of an exact yield stress
   HOST_DEVICE void operator()(Index i) const {
     if (held.data)
       result[i] = held[i] < 1 ? 1 : 0;
     else
-      result[i] = yielded(fluids[fluid[i]].rheology, shear_rate[i]) ? 1 : 0;
+      result[i] = yielded(fluids[fluid[i]].rheology, stress[i]) ? 1 : 0;
   }
+};
+
+struct NoStress {
+  Span<Real> result;
+  HOST_DEVICE void operator()(Index i) const { result[i] = 0; }
 };
 
 template <class T>
@@ -72,17 +78,30 @@ std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
   return measure_profile(s.context, source, s.setup.lines.at(line), s.setup.domain.lower);
 }
 
+// Before the first step there are no pairs, and no stress.
+void Simulation::State::measure_stress(Span<Real> result) {
+  if (builds == 0)
+    launch(context, "shear stress", fluid.count, NoStress{result});
+  else if (exact_yield())
+    viscous.exact_yield().measure_stress(pairs(), fluid.shear_rate.span(), result);
+  else
+    measure_shear_stress(context, pairs(), result);
+}
+
 void Simulation::read(FluidSnapshot& out) {
   State& s = *state_;
   const auto n = static_cast<std::size_t>(s.fluid.count);
   Buffer<std::uint8_t> flags(s.context, "yielded", s.fluid.count);
+  Buffer<Real> stress(s.context, "shear stresses", s.fluid.count);
+  s.measure_stress(stress.span());
   launch(s.context, "yielded", s.fluid.count,
-         FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.fluid.shear_rate.span(), flags.span(),
+         FlagYielded{s.fluids.span(), s.fluid.fluid.span(), stress.span(), flags.span(),
                      s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{}});
   const auto position = on_host(s.fluid.position);
   const auto motion = on_host(s.fluid.motion);
   const auto state = on_host(s.fluid.state);
-  const auto pressure = on_host(s.fluid.pressure), shear_rate = on_host(s.fluid.shear_rate);
+  const auto pressure = on_host(s.fluid.pressure), shear_rate = on_host(s.fluid.shear_rate),
+             shear_stress = on_host(stress);
   const auto id = on_host(s.fluid.id);
   const auto fluid = on_host(s.fluid.fluid), is_yielded = on_host(flags);
 
@@ -92,8 +111,8 @@ void Simulation::read(FluidSnapshot& out) {
 
   out.time = s.time;
   out.position.resize(n), out.velocity.resize(n), out.pressure.resize(n), out.density.resize(n);
-  out.viscosity.resize(n), out.shear_rate.resize(n), out.yielded.resize(n), out.fluid.resize(n),
-      out.id.resize(n);
+  out.viscosity.resize(n), out.shear_rate.resize(n), out.shear_stress.resize(n), out.yielded.resize(n),
+      out.fluid.resize(n), out.id.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = order[k];
     out.position[k] = position[i] + s.setup.domain.lower;
@@ -104,6 +123,7 @@ void Simulation::read(FluidSnapshot& out) {
         static_cast<float>(s.setup.fluids[fluid[i]].rest_density + static_cast<double>(motion[i].w));
     out.viscosity[k] = static_cast<float>(state[i].y);
     out.shear_rate[k] = static_cast<float>(shear_rate[i]);
+    out.shear_stress[k] = static_cast<float>(shear_stress[i]);
     out.yielded[k] = is_yielded[i];
     out.fluid[k] = fluid[i];
     out.id[k] = id[i];

@@ -69,6 +69,7 @@ struct Simulation::State {
   void look();
   void check_finite();
   void check_departure() const;
+  void measure_stress(Span<Real> result);  // [Pa] of each particle
 };
 
 }  // namespace slagflow

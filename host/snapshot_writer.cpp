@@ -14,6 +14,7 @@ std::vector<ArrayInfo> particle_arrays() {
           {"Density", "kg/m^3", "density", ArrayType::float32, 1},
           {"Viscosity", "Pa s", "dynamic viscosity", ArrayType::float32, 1},
           {"ShearRate", "1/s", "shear rate", ArrayType::float32, 1},
+          {"ShearStress", "Pa", "magnitude of the viscous stress", ArrayType::float32, 1},
           {"Yielded", "1", "1 where the stress exceeds the yield stress", ArrayType::uint8, 1},
           {"Fluid", "1", "index of the fluid, in the order of the case", ArrayType::uint8, 1},
           {"ParticleId", "1", "number of the particle, constant through the run", ArrayType::int64, 1}};
@@ -143,10 +144,10 @@ void SnapshotWriter::work() {
 void SnapshotWriter::append(const Snapshot& snapshot) {
   const FluidSnapshot& p = snapshot.particles;
   to_float(p.position, positions_);
-  particles_.append(
-      {p.time,
-       positions_,
-       {p.velocity, p.pressure, p.density, p.viscosity, p.shear_rate, p.yielded, p.fluid, p.id}});
+  particles_.append({p.time,
+                     positions_,
+                     {p.velocity, p.pressure, p.density, p.viscosity, p.shear_rate, p.shear_stress, p.yielded,
+                      p.fluid, p.id}});
   if (!walls_) return;
   const WallSnapshot& w = snapshot.walls;
   to_float(w.position, positions_);

@@ -19,10 +19,7 @@ struct Bingham {
   HOST_DEVICE Real viscosity(Real shear_rate) const {
     return plastic_viscosity + yield_stress * growth_exponent * growth_ratio(growth_exponent * shear_rate);
   }
-  // Yielded where the stress magnitude eta gamma exceeds tau_B.
-  HOST_DEVICE bool yielded(Real shear_rate) const {
-    return viscosity(shear_rate) * shear_rate > yield_stress;
-  }
+  HOST_DEVICE bool yielded(Real stress) const { return stress > yield_stress; }
 };
 
 }  // namespace slagflow

@@ -24,10 +24,10 @@ struct Biviscous {
   HOST_DEVICE Real viscosity(Real shear_rate) const {
     // Without a yield stress the fluid is Newtonian at rest too.
     const Real at_rest = yield_stress > 0 ? Real(1) : Real(0);
-    const Real share = yielded(shear_rate) ? critical_shear_rate / shear_rate : at_rest;
+    const Real share = shear_rate > critical_shear_rate ? critical_shear_rate / shear_rate : at_rest;
     return plastic_viscosity + (viscosity_ratio - 1) * plastic_viscosity * share;
   }
-  HOST_DEVICE bool yielded(Real shear_rate) const { return shear_rate > critical_shear_rate; }
+  HOST_DEVICE bool yielded(Real stress) const { return stress > yield_stress; }
 };
 
 }  // namespace slagflow

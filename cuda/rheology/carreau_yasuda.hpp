@@ -29,7 +29,7 @@ struct CarreauYasuda {
                                 : std::pow(1 + std::pow(x, transition), slope);
     return infinite_shear_viscosity + (zero_shear_viscosity - infinite_shear_viscosity) * thinning;
   }
-  HOST_DEVICE bool yielded(Real /*shear_rate*/) const { return true; }
+  HOST_DEVICE bool yielded(Real /*stress*/) const { return true; }
 };
 
 }  // namespace slagflow

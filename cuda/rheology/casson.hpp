@@ -22,9 +22,7 @@ struct Casson {
     const Real growth = growth_ratio(std::sqrt(growth_exponent * shear_rate));
     return square(std::sqrt(casson_viscosity) + std::sqrt(yield_stress * growth_exponent) * growth);
   }
-  HOST_DEVICE bool yielded(Real shear_rate) const {
-    return viscosity(shear_rate) * shear_rate > yield_stress;
-  }
+  HOST_DEVICE bool yielded(Real stress) const { return stress > yield_stress; }
 };
 
 }  // namespace slagflow

@@ -26,9 +26,7 @@ struct HerschelBulkley {
     return consistency * std::pow(rate, flow_index - 1) +
            yield_stress * growth_exponent * growth_ratio(growth_exponent * shear_rate);
   }
-  HOST_DEVICE bool yielded(Real shear_rate) const {
-    return viscosity(shear_rate) * shear_rate > yield_stress;
-  }
+  HOST_DEVICE bool yielded(Real stress) const { return stress > yield_stress; }
 };
 
 }  // namespace slagflow

@@ -10,7 +10,7 @@ struct Newtonian {
 
   HOST_DEVICE explicit Newtonian(const Real* p) : dynamic_viscosity(p[0]) {}
   HOST_DEVICE Real viscosity(Real /*shear_rate*/) const { return dynamic_viscosity; }
-  HOST_DEVICE bool yielded(Real /*shear_rate*/) const { return true; }
+  HOST_DEVICE bool yielded(Real /*stress*/) const { return true; }
 };
 
 }  // namespace slagflow

@@ -132,10 +132,13 @@ TEST(Bingham, YieldsWhereTheStressExceedsTheYieldStress) {
     const double middle = (low + high) / 2;
     (eta_p * middle < tau * std::exp(-m * middle) ? low : high) = middle;
   }
-  EXPECT_FALSE(yielded(bingham(tau), 0));
-  EXPECT_FALSE(yielded(bingham(tau), static_cast<Real>(0.98 * low)));
-  EXPECT_TRUE(yielded(bingham(tau), static_cast<Real>(1.02 * low)));
-  EXPECT_TRUE(yielded(bingham(tau), 100));
+  auto yields_at = [](double rate) {
+    return yielded(bingham(tau), viscosity(bingham(tau), static_cast<Real>(rate)) * static_cast<Real>(rate));
+  };
+  EXPECT_FALSE(yields_at(0));
+  EXPECT_FALSE(yields_at(0.98 * low));
+  EXPECT_TRUE(yields_at(1.02 * low));
+  EXPECT_TRUE(yields_at(100));
 }
 
 TEST(Newtonian, KeepsItsViscosityAndIsAlwaysYielded) {

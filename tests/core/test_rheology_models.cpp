@@ -73,9 +73,10 @@ TEST(HerschelBulkley, WithIndexOneIsBingham) {
 }
 
 TEST(HerschelBulkley, YieldsWithTheYieldStress) {
+  const auto below = static_cast<Real>(0.99 * tau), above = static_cast<Real>(1.01 * tau);
   EXPECT_FALSE(yielded(herschel_bulkley(0.5), 0));
-  EXPECT_FALSE(yielded(herschel_bulkley(0.5), Real(1e-5)));
-  EXPECT_TRUE(yielded(herschel_bulkley(0.5), 1));
+  EXPECT_FALSE(yielded(herschel_bulkley(0.5), below));
+  EXPECT_TRUE(yielded(herschel_bulkley(0.5), above));
   EXPECT_TRUE(yielded(herschel_bulkley(0.5, 0), Real(1e-5)));
 }
 
@@ -101,8 +102,8 @@ TEST(Casson, HasItsLimits) {
 
 TEST(Casson, YieldsWithTheYieldStress) {
   EXPECT_FALSE(yielded(casson(5), 0));
-  EXPECT_FALSE(yielded(casson(5), Real(1e-5)));
-  EXPECT_TRUE(yielded(casson(5), 1));
+  EXPECT_FALSE(yielded(casson(5), Real(4.99)));
+  EXPECT_TRUE(yielded(casson(5), Real(5.01)));
 }
 
 Rheology biviscous(double yield_stress) { return make(RheologyKind::biviscous, {0.75, yield_stress, 64}); }
@@ -118,10 +119,10 @@ TEST(Biviscous, HasTwoStraightBranchesThatMeet) {
   EXPECT_NEAR(eta(biviscous(6), critical * 1.000001) / (64 * 0.75), 1, 2e-6);
 }
 
-TEST(Biviscous, YieldsAboveTheCriticalShearRate) {
+TEST(Biviscous, YieldsWithTheYieldStress) {
   EXPECT_FALSE(yielded(biviscous(6), 0));
-  EXPECT_FALSE(yielded(biviscous(6), Real(0.1249)));
-  EXPECT_TRUE(yielded(biviscous(6), Real(0.1251)));
+  EXPECT_FALSE(yielded(biviscous(6), Real(5.99)));
+  EXPECT_TRUE(yielded(biviscous(6), Real(6.01)));
 }
 
 TEST(Biviscous, WithoutYieldStressIsNewtonian) {

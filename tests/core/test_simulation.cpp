@@ -47,6 +47,7 @@ void expect_same_bits(const FluidSnapshot& a, const FluidSnapshot& b) {
   expect_same_bits(a.pressure, b.pressure, "pressure"), expect_same_bits(a.density, b.density, "density");
   expect_same_bits(a.viscosity, b.viscosity, "viscosity"),
       expect_same_bits(a.shear_rate, b.shear_rate, "shear rate");
+  expect_same_bits(a.shear_stress, b.shear_stress, "shear stress");
   expect_same_bits(a.yielded, b.yielded, "yielded"), expect_same_bits(a.fluid, b.fluid, "fluid");
   expect_same_bits(a.id, b.id, "id");
 }
@@ -104,7 +105,7 @@ TEST(Simulation, SnapshotsAreOrderedByIdAndPlausible) {
                 1e-4 * static_cast<double>(s.viscosity[i]));
     EXPECT_EQ(
         s.yielded[i],
-        yielded(is_slag ? slag().rheology : oil().rheology, static_cast<Real>(s.shear_rate[i])) ? 1 : 0);
+        yielded(is_slag ? slag().rheology : oil().rheology, static_cast<Real>(s.shear_stress[i])) ? 1 : 0);
   }
 }
 

@@ -48,7 +48,7 @@ TEST_F(FullDisk, EndsTheRunWithTheReasonAndItGoesOnElsewhere) {
   ASSERT_EQ(shell(run + (folder_ / "unbroken")), 0) << said();
   // The run writes 5 MiB, and wants as much free before it begins a time step in a file.
   int resumed = 0;
-  for (const int kib : {500, 5400, 6500, 8000, 9500}) {
+  for (const int kib : {500, 6000, 7000, 8500, 10000}) {
     SCOPED_TRACE("a disk of " + std::to_string(kib) + " KiB");
     std::filesystem::remove_all(kept);
     const int status = shell(mount(kib) + " && { " + run + disk + "; status=$?; cp -a " + disk + " " + kept +

@@ -10,11 +10,6 @@ TITLE = "plane Poiseuille, slag"
 HALF_GAP = 0.01  # [m]
 ACROSS = 40
 PLUGS = (0.2, 0.5, 0.8)  # half width of the plug / half gap
-MISSES = {
-    "40 across, y_p/a 0.2: edge of the plug, by Yielded [m]":
-        "a shear rate is a sum over the support radius of 2.6 Δx, so particles as far inside the plug see the sheared "
-        "layer and count as yielded; the velocity has its kink in the right place",
-}
 
 
 def runs(quick):
