@@ -90,6 +90,7 @@ struct NumericsSetup {
   double density_diffusion = 0.1;   // delta of Fourtakas et al. 2019
   double tension_limit = 0;         // [Pa] >= 0, pressure is cut off at -tension_limit
   double anti_pairing = 0.1;        // epsilon of the term that keeps pairs apart
+  double shifting = 0;              // A of the particle shifting (shifting.hpp)
   double viscosity_correction = 0;  // 0: from the kernel and the lattice (lattice_viscosity.hpp)
   ViscousStepping viscous_step = ViscousStepping::implicit_step;
   double diffusion_number = 0.1;  // d_i of equation (5), of the explicit step

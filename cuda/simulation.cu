@@ -2,6 +2,7 @@
 
 #include "advance.hpp"
 #include "backend/error.hpp"
+#include "shifting.hpp"
 #include "simulation_state.hpp"
 #include "walls/wall_pressure.hpp"
 
@@ -253,6 +254,13 @@ void Simulation::State::add_wall_forces() {
                    viscous.wall_yield()});
 }
 
+void Simulation::State::shift() {
+  if (setup.numerics.shifting <= 0) return;
+  Section timer(context, "shifting");
+  shift_particles(context, pairs(), static_cast<Real>(setup.numerics.shifting), static_cast<Real>(dt),
+                  fluid.shear_rate.span(), fluid.position.span());
+}
+
 void Simulation::State::look() {
   Section timer(context, "watch");
   std::int64_t left = 0;
@@ -318,6 +326,7 @@ void Simulation::step() {
     }
     s.solve();
     s.add_wall_forces();
+    s.shift();
     Section timer(s.context, "advance");
     s.displacement =
         advance_particles(s.context, s.fluid, {s.viscous.velocity(), s.dt}, s.list_places, s.scratch);

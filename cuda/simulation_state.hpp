@@ -66,6 +66,7 @@ struct Simulation::State {
   bool ended_at_yield_iterations(const SolveResult&) const;
   bool knows_wall_forces() const;
   void add_wall_forces();
+  void shift();
   void look();
   void check_finite();
   void check_departure() const;

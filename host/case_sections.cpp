@@ -255,6 +255,7 @@ void read_numerics(CaseTable& top, Case& c) {
   t.read("density_diffusion", n.density_diffusion, between(0, 1, ""));
   t.read("tension_limit", n.tension_limit, at_least(0, "Pa"));
   t.read("anti_pairing", n.anti_pairing, between(0, 1, ""));
+  t.read("shifting", n.shifting, between(0, 1, ""));
   read_scheme(t, n);
   t.read_enum("operator", n.viscous_operator, operator_names);
   t.read_enum("explicit_part", n.explicit_part, explicit_names);

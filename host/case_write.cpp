@@ -157,7 +157,7 @@ void write_numerics(std::ostream& out, const Case& c) {
       << "\ncourant = " << show(n.courant) << "\nmax_time_step = " << show(n.max_time_step)
       << "\ndensity_diffusion = " << show(n.density_diffusion)
       << "\ntension_limit = " << show(n.tension_limit) << "\nanti_pairing = " << show(n.anti_pairing)
-      << "\noperator = " << name_of(operator_names, n.viscous_operator)
+      << "\nshifting = " << show(n.shifting) << "\noperator = " << name_of(operator_names, n.viscous_operator)
       << "\nexplicit_part = " << name_of(explicit_names, n.explicit_part) << "\nviscosity_correction = "
       << (n.viscosity_correction > 0 ? show(n.viscosity_correction) : "\"auto\"")
       << "\nviscous_step = " << name_of(stepping_names, n.viscous_step)
