@@ -11,13 +11,14 @@ WEIGHT = 1000 * 9.81 * HEIGHT  # [Pa]
 STANDING, FAILING = 0.30, 0.23
 TIME = 0.3  # [s]
 MISSES = {"20 high, τ_B 0.23 ρgH: the face moves in 0.3 s, mean of its height [Δx]":
-          "the face fails, but slower than was asked for: it moved 0.61 Δx before the operator's correction was "
-          "computed and 0.41 Δx since; the cause is not found"}
+          "the face fails, but slowly at this resolution: it has moved 0.65 Δx after 1 s, where the standing one has crept "
+          "0.08 Δx; at twice the resolution it is in bounds"}
 
 
 def runs(quick):
-    return [Run(f"vertical_face_{ratio}", "vertical_face", f"20 high, τ_B {ratio} ρgH",
-                {"fluid.paste.yield_stress": ratio * WEIGHT, "output.end_time": TIME}) for ratio in (STANDING, FAILING)]
+    return [Run(f"vertical_face_{ratio}_{n}", "vertical_face", f"{n} high, τ_B {ratio} ρgH",
+                {"fluid.paste.yield_stress": ratio * WEIGHT, "output.end_time": TIME, "resolution.spacing": HEIGHT / n})
+            for n in ((20,) if quick else (20, 40)) for ratio in (STANDING, FAILING)]
 
 
 def face(result, state):
@@ -32,16 +33,18 @@ def face(result, state):
 
 def rows(results):
     table = []
-    for result, bounds in zip(results, ((None, 0.1), (0.5, None))):
-        moved = np.mean(face(result, result.state())[1])
-        table.append(bound_row(result.resolution, "the face moves in 0.3 s, mean of its height [Δx]", moved, bounds))
-    speeds = [np.sqrt(np.mean(np.sum(r.state(0.05).velocity**2, axis=1))) for r in results]
-    table.append(bound_row("20 high", "rms speed after 50 ms, failing / standing", speeds[1] / speeds[0], (10, None)))
+    for standing, failing in zip(results[::2], results[1::2]):
+        for result, bounds in ((standing, (None, 0.1)), (failing, (0.5, None))):
+            moved = np.mean(face(result, result.state())[1])
+            table.append(bound_row(result.resolution, "the face moves in 0.3 s, mean of its height [Δx]", moved, bounds))
+        slow, fast = (np.sqrt(np.mean(np.sum(r.state(0.05).velocity**2, axis=1))) for r in (standing, failing))
+        table.append(bound_row(standing.resolution.split(",")[0], "rms speed after 50 ms, failing / standing", fast / slow,
+                               (10, None)))
     return table
 
 
 def draw(axes, results):
-    for result, colour in zip(results, ("#31688e", "#d1652a")):
+    for result, colour in zip(results[-2:], ("#31688e", "#d1652a")):
         height, moved = face(result, result.state())
         axes.plot(moved, 1e3 * height, ".-", color=colour, label=result.resolution.split(", ")[1])
     axes.axvline(0, color="grey", linewidth=0.5)
