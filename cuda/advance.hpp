@@ -2,7 +2,9 @@
 #pragma once
 
 #include "backend/buffer.hpp"
+#include "diagnostics.hpp"
 #include "particles.hpp"
+#include "step_record.hpp"
 
 namespace slagflow {
 
@@ -11,15 +13,16 @@ struct SolvedVelocity {
   double dt;                  // [s]
 };
 
-// v = the solved velocity, x += dt v (positions in fp64). Returns the largest distance [m] from `reference`,
-// the places at which the neighbour list was built; not-a-number when a velocity is.
-double advance_particles(Context&, FluidArrays&, SolvedVelocity solved, const Buffer<Quad>& reference,
-                         Buffer<Real>& scratch);
+// v = the solved velocity, x += dt v (positions in fp64). Leaves the square of the largest distance [m] from
+// `reference`, the places at which the neighbour list was built, in the record; not-a-number when a velocity
+// is. Idle unless the record says that the solve has converged.
+void advance_particles(Context&, FluidArrays&, SolvedVelocity solved, const Buffer<Quad>& reference,
+                       StepRecord*);
 
 // Largest speed [m/s].
-double largest_speed(Context&, const FluidArrays&, Buffer<Real>& scratch);
+double largest_speed(Context&, const FluidArrays&, DiagnosticScratch&);
 
-// Largest dynamic viscosity over density of any particle [m^2/s]; `scratch` holds one number per particle.
-double largest_diffusivity(Context&, const FluidArrays&, Buffer<Real>& scratch);
+// Largest dynamic viscosity over density of any particle [m^2/s].
+double largest_diffusivity(Context&, const FluidArrays&, DiagnosticScratch&);
 
 }  // namespace slagflow

@@ -1,25 +1,41 @@
 // Sums and maxima over particles of what a body computes for each. A header for .cu files.
 #pragma once
 
-#include "backend/launch.hpp"
-#include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 #include "diagnostics.hpp"
 
 namespace slagflow {
 
-template <class Term, class T>
-struct StoreTerm {
+template <class Term>
+struct OneTerm {
+  static constexpr int terms = 1;
   Term term;
-  Span<T> result;
-  HOST_DEVICE void operator()(Index i) const { result[i] = static_cast<T>(term(i)); }
+  HOST_DEVICE Terms<1> operator()(Index i) const { return {{static_cast<double>(term(i))}}; }
 };
 
-// Sum of term(i), a double, over i in [0, n).
+template <int count>
+struct KeepTerms {
+  double* kept;
+  HOST_DEVICE void operator()(const Terms<count>& all) const {
+    for (int k = 0; k < count; ++k) kept[k] = all.value[k];
+  }
+};
+
+// Reduces a body with several terms and waits for them.
+template <class Reduction, class Body>
+Terms<Body::terms> reduce_terms(Context& context, DiagnosticScratch& scratch, Index n, const Body& body) {
+  static_assert(Body::terms <= DiagnosticScratch::most_terms);
+  launch_reduction<Reduction>(context, "diagnostic sum", n, body,
+                              KeepTerms<Body::terms>{scratch.result.span().data});
+  Terms<Body::terms> all;
+  context.copy_to_host(&all, scratch.result.span().data, sizeof all);
+  return all;
+}
+
+// Sum of term(i) over i in [0, n).
 template <class Term>
 double total(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
-  scratch.sums.resize(n);
-  launch(context, "diagnostic sum", n, StoreTerm<Term, double>{term, scratch.sums.span()});
-  return sum(context, scratch.sums.span());
+  return reduce_terms<AddUp>(context, scratch, n, OneTerm<Term>{term}).value[0];
 }
 
 // The same of whole numbers; exact up to 2^53.
@@ -30,10 +46,7 @@ std::int64_t count(Context& context, DiagnosticScratch& scratch, Index n, Term t
 
 template <class Term>
 double largest(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
-  constexpr double lowest = -1e30;
-  scratch.maxima.resize(n);
-  launch(context, "diagnostic maximum", n, StoreTerm<Term, Real>{term, scratch.maxima.span()});
-  return maximum(context, scratch.maxima.span(), lowest);
+  return reduce_terms<TakeLargest>(context, scratch, n, OneTerm<Term>{term}).value[0];
 }
 
 }  // namespace slagflow

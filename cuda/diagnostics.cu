@@ -126,6 +126,25 @@ struct CountWithinSupport {
   }
 };
 
+template <class A, class B>
+struct PairOfTerms {
+  static constexpr int terms = 2;
+  A a;
+  B b;
+  HOST_DEVICE Terms<2> operator()(Index i) const {
+    return {{static_cast<double>(a(i)), static_cast<double>(b(i))}};
+  }
+};
+
+template <class A, class B, class C>
+struct ThreeTerms {
+  static constexpr int terms = 3;
+  A a;
+  B b;
+  C c;
+  HOST_DEVICE Terms<3> operator()(Index i) const { return {{a(i), b(i), c(i)}}; }
+};
+
 FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& front, Vec3d origin,
                          DiagnosticScratch& scratch) {
   FrontState state;
@@ -182,17 +201,24 @@ Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstant
   const Vec3d force = setup.gravity + setup.body_acceleration;
   Vec3d lowest;  // point of the domain, relative to its lower corner
   for (int k = 0; k < 3; ++k) lowest[k] = force[k] > 0 ? setup.domain.upper[k] - setup.domain.lower[k] : 0;
+  const PotentialEnergy potential{fluids, kind, f.position.span(), force, -lowest};
+  const auto most = reduce_terms<TakeLargest>(
+      c, scratch, n, PairOfTerms<SpeedSquared, Compression>{{motion}, {fluids, kind, motion, 1}});
+  const auto energy = reduce_terms<AddUp>(
+      c, scratch, n,
+      ThreeTerms<KineticEnergy, PotentialEnergy, ElasticEnergy>{
+          {fluids, kind, motion}, potential, {fluids, kind, motion, setup.numerics.sound_speed}});
   Vitals v;
-  v.max_speed = std::sqrt(largest(c, scratch, n, SpeedSquared{motion}));
-  v.max_compression = largest(c, scratch, n, Compression{fluids, kind, motion, 1});
-  v.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
-  v.stored_energy = total(c, scratch, n, PotentialEnergy{fluids, kind, f.position.span(), force, -lowest}) +
-                    total(c, scratch, n, ElasticEnergy{fluids, kind, motion, setup.numerics.sound_speed});
+  v.max_speed = std::sqrt(most.value[0]);
+  v.max_compression = most.value[1];
+  v.kinetic_energy = energy.value[0];
+  v.stored_energy = energy.value[1] + energy.value[2];
   return v;
 }
 
-double dissipation(Context& c, const FluidArrays& f, DiagnosticScratch& scratch) {
-  return total(c, scratch, f.count, Dissipation{f.state.span(), f.shear_rate.span()});
+void launch_dissipation(Context& c, const FluidArrays& f, double* power) {
+  const OneTerm<Dissipation> body{{f.state.span(), f.shear_rate.span()}};
+  launch_reduction<AddUp>(c, "dissipation", f.count, body, KeepTerms<1>{power});
 }
 
 double mean_neighbours(Context& context, const PairContext& c, DiagnosticScratch& scratch) {

@@ -8,9 +8,9 @@ namespace slagflow {
 
 // Scratch of the sums.
 struct DiagnosticScratch {
-  explicit DiagnosticScratch(Context& c) : sums(c, "diagnostic sums"), maxima(c, "diagnostic maxima") {}
-  Buffer<double> sums;
-  Buffer<Real> maxima;
+  static constexpr int most_terms = 4;
+  explicit DiagnosticScratch(Context& c) : result(c, "diagnostic sums", most_terms) {}
+  Buffer<double> result;
 };
 
 // Mass, energies, momenta, densities and fronts of the particles in the domain. Positions on the device are
@@ -28,8 +28,8 @@ struct Vitals {
 Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
                       DiagnosticScratch&);
 
-// Power that viscosity dissipates now [W]: sum_i V_i eta_i gamma_i^2.
-double dissipation(Context&, const FluidArrays&, DiagnosticScratch&);
+// Power that viscosity dissipates now [W]: sum_i V_i eta_i gamma_i^2. Leaves it in `power`, on the device.
+void launch_dissipation(Context&, const FluidArrays&, double* power);
 
 // Mean number of fluid and wall particles within the support radius of a fluid particle, itself not counted.
 double mean_neighbours(Context&, const PairContext&, DiagnosticScratch&);

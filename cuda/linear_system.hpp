@@ -104,9 +104,8 @@ struct SolveLimits {
   double residual = 0;  // stop when ||b - A u|| is at most this [kg m/s]
   double energy = 0;    // or when an upper bound of the error's r.A^-1 r is at most this [kg m^2/s^2]
   int max_iterations = 200;
-  double relaxation = 1.2;  // of SOR
-  double start_residual =
-      -1;  // ||b - A u|| of the first guess when the workspace holds that residual already
+  double relaxation = 1.2;    // of SOR
+  double start_residual = 0;  // ||b - A u|| of the first guess
 };
 
 struct SolveResult {

@@ -1,10 +1,30 @@
-#include "backend/launch.hpp"
-#include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 #include "list_age.hpp"
 
 namespace slagflow {
 
 namespace {
+
+enum class Verdict { hold, broken, open };
+
+// What the largest displacements tell already.
+HOST_DEVICE Verdict judge(double fluid_moved, double walls_moved, const ListReach& reach) {
+  if (fluid_moved <= 0.5 * reach.fluid_skin && fluid_moved + walls_moved <= reach.wall_skin)
+    return Verdict::hold;
+  const double farthest = reach.width - 0.5 * reach.support;
+  return fluid_moved <= farthest && walls_moved <= farthest ? Verdict::open : Verdict::broken;
+}
+
+// Idle where the record, if there is one, decides alone.
+template <class Body>
+struct IfOpen : Body {
+  const StepRecord* record;
+  ListReach reach;
+  HOST_DEVICE bool idle() const {
+    return record && (!record->solve.converged ||
+                      judge(std::sqrt(record->displacement_squared), 0, reach) != Verdict::open);
+  }
+};
 
 struct CellDisplacement {
   SourceView sources;
@@ -30,14 +50,15 @@ struct CellDisplacement {
 };
 
 struct Approach {
+  static constexpr int terms = 1;
   CellGrid grid;
   Span<const Quad> displacement;
   Span<const Index> wall_start;
   Span<const Quad> wall_displacement;  // empty while all walls are at rest
   Real fluid_skin, wall_skin;
-  Span<Real> excess;
 
-  HOST_DEVICE void operator()(Index cell) const {
+  // Beyond the skin [m].
+  HOST_DEVICE Terms<1> operator()(Index cell) const {
     const Quad own = displacement[cell];
     Real worst = -1;
     if (own.w >= 0) {
@@ -51,39 +72,70 @@ struct Approach {
         worst = larger(worst, norm(xyz(own) - xyz(wall)) + own.w + wall.w - wall_skin);
       });
     }
-    excess[cell] = worst;
+    return {{static_cast<double>(worst)}};
   }
 };
 
+struct KeepApproach {
+  double* approach;
+  HOST_DEVICE void operator()(const Terms<1>& largest) const { *approach = largest.value[0]; }
+};
+
 }  // namespace
+
+// Whose moves count, and where the approach goes.
+struct ListAge::Moves {
+  const StepRecord* record;  // null: the host has decided already that it is needed
+  double* approach;
+};
 
 ListAge::ListAge(Context& context)
     : context_(context),
       displacement_(context, "cell displacements"),
       wall_displacement_(context, "cell displacements of walls"),
-      excess_(context, "cell approaches") {}
+      approach_(context, "approach of cells", 1) {}
 
-void ListAge::find_displacements(const MovedParticles& particles, Buffer<Quad>& displacement) {
-  const Index cells = particles.now.grid.cells();
-  displacement.resize(cells);
-  launch(context_, "cell displacement", cells,
-         CellDisplacement{particles.now, particles.start, displacement.span()});
+void ListAge::launch_approach(const Moves& moves, const MovedParticles& fluid, const MovedParticles& walls,
+                              const ListReach& reach) {
+  const Index cells = fluid.now.grid.cells();
+  const auto displacements = [&](const MovedParticles& particles, Buffer<Quad>& displacement) {
+    displacement.resize(cells);
+    const CellDisplacement body{particles.now, particles.start, displacement.span()};
+    launch(context_, "cell displacement", cells, IfOpen<CellDisplacement>{body, moves.record, reach});
+    return Span<const Quad>(displacement.span());
+  };
+  const auto moved = displacements(fluid, displacement_);
+  const bool walls_move = walls.largest_displacement > 0;
+  const auto walls_moved = walls_move ? displacements(walls, wall_displacement_) : Span<const Quad>{};
+  const Approach body{fluid.now.grid,
+                      moved,
+                      walls.now.cell_start,
+                      walls_moved,
+                      static_cast<Real>(reach.fluid_skin),
+                      static_cast<Real>(reach.wall_skin)};
+  launch_reduction<TakeLargest>(context_, "approach", cells, IfOpen<Approach>{body, moves.record, reach},
+                                KeepApproach{moves.approach});
 }
 
 bool ListAge::lists_hold(const MovedParticles& fluid, const MovedParticles& walls, const ListReach& reach) {
-  const double fluid_moved = fluid.largest_displacement, walls_moved = walls.largest_displacement;
-  if (fluid_moved <= 0.5 * reach.fluid_skin && fluid_moved + walls_moved <= reach.wall_skin) return true;
-  const double farthest = reach.width - 0.5 * reach.support;
-  if (!(fluid_moved <= farthest && walls_moved <= farthest)) return false;
-  find_displacements(fluid, displacement_);
-  if (walls_moved > 0) find_displacements(walls, wall_displacement_);
-  const Index cells = fluid.now.grid.cells();
-  excess_.resize(cells);
-  launch(context_, "approach", cells,
-         Approach{fluid.now.grid, displacement_.span(), walls.now.cell_start,
-                  walls_moved > 0 ? wall_displacement_.span() : Span<const Quad>{},
-                  static_cast<Real>(reach.fluid_skin), static_cast<Real>(reach.wall_skin), excess_.span()});
-  return maximum(context_, excess_.span(), -1) <= 0;
+  const Verdict verdict = judge(fluid.largest_displacement, walls.largest_displacement, reach);
+  if (verdict != Verdict::open) return verdict == Verdict::hold;
+  launch_approach({nullptr, approach_.span().data}, fluid, walls, reach);
+  double approach = 0;
+  context_.copy_to_host(&approach, approach_.span().data, sizeof approach);
+  return approach <= 0;
+}
+
+void ListAge::launch_approach(SourceView fluid, Span<const Quad> start, Span<const Index> wall_start,
+                              const ListReach& reach, StepRecord* record) {
+  SourceView walls = fluid;
+  walls.cell_start = wall_start;
+  launch_approach({record, &record->approach}, {fluid, start, 0}, {walls, {}, 0}, reach);
+}
+
+bool ListAge::lists_hold(const StepRecord& record, const ListReach& reach) {
+  const Verdict verdict = judge(std::sqrt(record.displacement_squared), 0, reach);
+  return verdict == Verdict::open ? record.approach <= 0 : verdict == Verdict::hold;
 }
 
 }  // namespace slagflow

@@ -5,6 +5,7 @@
 
 #include "backend/buffer.hpp"
 #include "cells.hpp"
+#include "step_record.hpp"
 
 namespace slagflow {
 
@@ -32,13 +33,21 @@ class ListAge {
 
   bool lists_hold(const MovedParticles& fluid, const MovedParticles& walls, const ListReach&);
 
+  // The same without waiting, with walls at rest: leaves the approach in the record, and is idle where the
+  // record's displacement alone decides. Then the record decides.
+  void launch_approach(SourceView fluid, Span<const Quad> start, Span<const Index> wall_start,
+                       const ListReach&, StepRecord*);
+  static bool lists_hold(const StepRecord&, const ListReach&);
+
  private:
-  void find_displacements(const MovedParticles&, Buffer<Quad>& displacement);
+  struct Moves;
+  void launch_approach(const Moves&, const MovedParticles& fluid, const MovedParticles& walls,
+                       const ListReach&);
 
   Context& context_;
   // Of each cell: xyz mean, w largest deviation, negative in an empty cell.
   Buffer<Quad> displacement_, wall_displacement_;
-  Buffer<Real> excess_;  // approach beyond the skin, of each cell
+  Buffer<double> approach_;
 };
 
 }  // namespace slagflow

@@ -57,11 +57,12 @@ struct Shift {
 }  // namespace
 
 void shift_particles(Context& context, const PairContext& c, Real amount, Real dt,
-                     Span<const Real> shear_rate, Span<Vec3d> position) {
+                     Span<const Real> shear_rate, Span<Vec3d> position, const SolveState* solve) {
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
   auto sweep = [&](auto box) {
-    launch(context, "shifting", c.fluid.count,
-           Shift<Lucy, decltype(box)>{c, smoothing, box, amount, dt, shear_rate, position});
+    launch(
+        context, "shifting", c.fluid.count,
+        if_converged(solve, Shift<Lucy, decltype(box)>{c, smoothing, box, amount, dt, shear_rate, position}));
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

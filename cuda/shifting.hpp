@@ -2,6 +2,7 @@
 #pragma once
 
 #include "density.hpp"
+#include "solvers/solve_state.hpp"
 
 namespace slagflow {
 
@@ -10,8 +11,9 @@ namespace slagflow {
 // (S. J. Lind et al., J. Comput. Phys. 231 (2012) 1499, with the shear rate for the pace: nothing moves in a
 // plug, or in a rigid motion). S_i is 0 at and next to a free surface, where T_i = sum_j V_j |F_ij| r^2 / d
 // falls below 0.92, and 1 from T_i = 0.97 on; inside T_i is 0.99. Velocities stay as they are.
-// `amount`: A; `dt` [s]; `shear_rate` [1/s]; `position` [m], which the places of the pairs still lag.
+// `amount`: A; `dt` [s]; `shear_rate` [1/s]; `position` [m], which the places of the pairs still lag. Idle
+// unless the solve has converged; without a solve never.
 void shift_particles(Context&, const PairContext&, Real amount, Real dt, Span<const Real> shear_rate,
-                     Span<Vec3d> position);
+                     Span<Vec3d> position, const SolveState* solve = nullptr);
 
 }  // namespace slagflow

@@ -121,6 +121,7 @@ void Simulation::State::rebuild() {
   if (walls.any()) wall_list_places.copy_from(wall.place);
   list_time = time;
   displacement = 0;
+  last.reset();
   ++builds;
 }
 
@@ -164,6 +165,7 @@ void Simulation::State::check_departure() const {
 bool Simulation::State::lists_hold() {
   Section timer(context, "list age");
   if (walls.vanishes(list_time, time)) return false;
+  if (last && !walls.any()) return ListAge::lists_hold(*last, reach);
   return list_age.lists_hold(
       {ordering.fluid_sources(fluid), list_places.span(), displacement},
       {ordering.wall_sources(wall), wall_list_places.span(), walls.largest_displacement(list_time, time)},
@@ -178,27 +180,36 @@ PairContext Simulation::State::pairs() const {
 // a ten-thousandth of the largest speed, of the fluid or a wall, stands for it.
 double Simulation::State::kick() {
   const double g = norm(setup.gravity + setup.body_acceleration);
-  return g > 0 ? g * dt : 1e-4 * larger(walls.largest_speed(), largest_speed(context, fluid, scratch));
+  return g > 0 ? g * dt : 1e-4 * larger(walls.largest_speed(), largest_speed(context, fluid, diagnostics));
 }
 
 // The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5).
 void Simulation::State::choose_time_step() {
   dt = full_dt;
   if (setup.numerics.viscous_step != ViscousStepping::explicit_step) return;
-  const double diffusivity = largest_diffusivity(context, fluid, scratch);
+  const double diffusivity = largest_diffusivity(context, fluid, diagnostics);
   if (diffusivity > 0)
     dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
 }
 
-SolveResult Simulation::State::try_solve() {
+ViscousStep::Step Simulation::State::viscous_step() {
   double lightest = 1e300;
   for (const auto& f : fluid_constants(setup)) lightest = smaller(lightest, static_cast<double>(f.mass));
+  return {dt, kick(), lightest};
+}
+
+void Simulation::State::begin_solve() {
+  solve_step = viscous_step();
+  viscous.begin(pairs(), solve_step, fluid_list.capacity(), fluid);
+}
+
+SolveResult Simulation::State::finish_solve(const StepRecord& now) {
   const auto sources = ordering.fluid_sources(fluid);
-  const SolveResult result = viscous.advance(pairs(), {sources.grid, sources.cell_start},
-                                             {dt, kick(), lightest}, fluid_list.capacity(), fluid);
+  const SolveResult result =
+      viscous.finish(now, pairs(), {sources.grid, sources.cell_start}, solve_step, fluid);
   report.iterations = result.iterations;
   report.residual = result.right_hand_side > 0 ? result.residual / result.right_hand_side : 0;
-  report.velocity_error = result.residual / (lightest * std::sqrt(static_cast<double>(fluid.count)));
+  report.velocity_error = result.residual / (solve_step.mass * std::sqrt(static_cast<double>(fluid.count)));
   report.converged = result.converged;
   solver.iterations += result.iterations;
   solver.max_iterations = larger(solver.max_iterations, result.iterations);
@@ -213,9 +224,9 @@ bool Simulation::State::ended_at_yield_iterations(const SolveResult& result) con
 }
 
 // A solve that does not converge is tried again with half the time step, and from a first guess of nothing.
-void Simulation::State::solve() {
+void Simulation::State::solve(const StepRecord& begun) {
   constexpr int most_halvings = 4;
-  SolveResult result = try_solve();
+  SolveResult result = finish_solve(begun);
   for (int halving = 0; !result.converged; ++halving) {
     if (halving == most_halvings) give_up(result);
     ++solver.retried;
@@ -223,10 +234,34 @@ void Simulation::State::solve() {
     density_ahead += dt;
     walls.place(time, dt, wall);
     viscous.forget(fluid.increment);
-    result = try_solve();
+    begin_solve();
+    result = finish_solve(viscous.read());
   }
   solver.steps += 1;
   solver.worst_residual = larger(solver.worst_residual, report.residual);
+}
+
+// All of it is idle unless the solve has converged.
+void Simulation::State::launch_move() {
+  add_wall_forces();
+  shift();
+  Section timer(context, "advance");
+  StepRecord* record = viscous.record();
+  advance_particles(context, fluid, {viscous.velocity(), dt}, list_places, record);
+  if (!walls.any())
+    list_age.launch_approach(ordering.fluid_sources(fluid), list_places.span(),
+                             ordering.wall_sources(wall).cell_start, reach, record);
+}
+
+// The device goes on to the end of the step before the host looks, once; mostly the solve has converged.
+StepRecord Simulation::State::solve_and_move() {
+  begin_solve();
+  launch_move();
+  const StepRecord begun = viscous.read();
+  solve(begun);
+  if (begun.solve.converged) return begun;
+  launch_move();
+  return viscous.read();
 }
 
 void Simulation::State::give_up(const SolveResult& result) {
@@ -251,14 +286,14 @@ void Simulation::State::add_wall_forces() {
   Section timer(context, "wall forces");
   wall_forces.add(viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
                   {dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
-                   viscous.wall_yield()});
+                   viscous.wall_yield(), &viscous.record()->solve});
 }
 
 void Simulation::State::shift() {
   if (setup.numerics.shifting <= 0) return;
   Section timer(context, "shifting");
   shift_particles(context, pairs(), static_cast<Real>(setup.numerics.shifting), static_cast<Real>(dt),
-                  fluid.shear_rate.span(), fluid.position.span());
+                  fluid.shear_rate.span(), fluid.position.span(), &viscous.record()->solve);
 }
 
 void Simulation::State::look() {
@@ -306,7 +341,7 @@ void Simulation::step() {
   if (!s.lists_hold()) {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
-    const double speed = larger(largest_speed(s.context, s.fluid, s.scratch), s.walls.largest_speed());
+    const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics), s.walls.largest_speed());
     s.full_dt = smaller(acoustic_time_step(s.setup),
                         0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
@@ -318,18 +353,15 @@ void Simulation::step() {
       update_density(s.context, s.pairs(), s.fluid, s.scratch, static_cast<Real>(s.dt - s.density_ahead));
       s.density_ahead = 0;
     }
-    // What the last step dissipated: the viscous forces acted on the velocities that it ended with.
-    if (s.steps > 0) s.dissipated += last_dt * dissipation(s.context, s.fluid, s.diagnostics);
+    launch_dissipation(s.context, s.fluid, &s.viscous.record()->dissipation);
     {
       Section timer(s.context, "wall pressure");
       extrapolate_wall_pressure(s.context, s.pairs(), s.wall_to_fluid.view(), s.wall);
     }
-    s.solve();
-    s.add_wall_forces();
-    s.shift();
-    Section timer(s.context, "advance");
-    s.displacement =
-        advance_particles(s.context, s.fluid, {s.viscous.velocity(), s.dt}, s.list_places, s.scratch);
+    s.last = s.solve_and_move();
+    // What the last step dissipated: the viscous forces acted on the velocities that it ended with.
+    if (s.steps > 0) s.dissipated += last_dt * s.last->dissipation;
+    s.displacement = std::sqrt(s.last->displacement_squared);
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
   s.time += s.dt;
@@ -352,6 +384,7 @@ SolveReport Simulation::last_solve() const { return state_->report; }
 SolverTotals Simulation::solver_totals() const { return state_->solver; }
 std::int64_t Simulation::list_builds() const { return state_->builds; }
 std::size_t Simulation::device_bytes() const { return state_->context.allocated(); }
+std::int64_t Simulation::waits() const { return state_->context.waits(); }
 std::map<std::string, double> Simulation::timings() const { return state_->context.timings(); }
 
 }  // namespace slagflow

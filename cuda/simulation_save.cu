@@ -174,6 +174,7 @@ void Simulation::restore(const SavedState& saved) {
               v.yield_iterations, v.yield_unconverged, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
   s.watch.lowest_energy = v.lowest_energy;
+  s.last.reset();
   s.rebuild_lists_as_saved();
 }
 

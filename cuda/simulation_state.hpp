@@ -1,6 +1,8 @@
 // What a simulation holds; shared by the sources that step it and read it.
 #pragma once
 
+#include <optional>
+
 #include "constants.hpp"
 #include "density.hpp"
 #include "diagnostics.hpp"
@@ -35,6 +37,8 @@ struct Simulation::State {
   Buffer<Quad> list_places, wall_list_places;  // of the fluid and of moving walls when the lists were built
   double list_time = 0;                        // [s], of those places
   Buffer<Real> scratch;
+  ViscousStep::Step solve_step{};  // of the solve under way
+  std::optional<StepRecord> last;  // of the last step, when it tells how far the particles have moved
   ViscousStep viscous;
   DiagnosticScratch diagnostics;
   Watch watch;
@@ -60,8 +64,12 @@ struct Simulation::State {
   PairContext pairs() const;
   double kick();
   void choose_time_step();
-  SolveResult try_solve();
-  void solve();
+  ViscousStep::Step viscous_step();
+  void begin_solve();
+  SolveResult finish_solve(const StepRecord&);
+  void launch_move();
+  StepRecord solve_and_move();
+  void solve(const StepRecord&);
   [[noreturn]] void give_up(const SolveResult&);
   bool ended_at_yield_iterations(const SolveResult&) const;
   bool knows_wall_forces() const;

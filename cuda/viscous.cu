@@ -1,5 +1,3 @@
-#include <limits>
-
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
 #include "solvers/residual.hpp"
@@ -14,37 +12,46 @@ namespace {
 // into b - A u* and starts from the last delta, as the pressure gradient and gravity that it balanced then it
 // balances now.
 struct StartFromPredicted {
+  static constexpr int terms = 4;  // |b_i|^2, |r_i|^2, r_i.z_i, |D_i delta_i|^2 with the diagonal D
   LinearSystem system;
   Span<const Quad> predicted, increment;
   Span<Quad> right_hand_side, residual;
-  Span<double> squared;
-  HOST_DEVICE void operator()(Index i) const {
+  HOST_DEVICE Terms<4> operator()(Index i) const {
     const LinearSystem::Two product = system.apply(i, predicted, increment);
+    const Vec3d force = to_double(xyz(right_hand_side[i]));
     const Vec3 b = xyz(right_hand_side[i]) - product.u, r = b - product.v;
     right_hand_side[i] = quad(b, 0);
     residual[i] = quad(r, 0);
-    squared[i] = dot(to_double(r), to_double(r));
+    return {{dot(force, force), dot(to_double(r), to_double(r)),
+             dot(to_double(r), to_double(over_diagonal(r, system.diagonal[i]))),
+             scaled_squared(system.diagonal[i], increment[i])}};
   }
+};
+
+// A >= m, so ||u - u_exact|| <= ||r|| / m: the residual bounds the rms velocity error.
+struct BeginSolve {
+  SolveState* state;
+  double wanted;
+  int most_iterations;
+  HOST_DEVICE void operator()(const Terms<4>& sums) const {
+    const double start = std::sqrt(sums.value[1]);
+    state->limit = larger(wanted, rounding_residual(sums.value[3], start));
+    state->right_hand_side = std::sqrt(sums.value[0]);
+    state->rz = sums.value[2];
+    state->begin(start, most_iterations);
+  }
+};
+
+struct Declare {
+  SolveState* state;
+  bool solved;
+  HOST_DEVICE void operator()(Index) const { state->converged = solved ? 1 : 0, state->running = 0; }
 };
 
 struct AddIncrement {
   Span<const Quad> predicted, increment;
   Span<Quad> velocity;
   HOST_DEVICE void operator()(Index i) const { velocity[i] = quad(xyz(predicted[i]) + xyz(increment[i]), 0); }
-};
-
-// |v_i|^2, or |D_i v_i|^2 with the diagonal D.
-struct SquaredLength {
-  Span<const Quad> v, diagonal;
-  Span<double> squared;
-  HOST_DEVICE void operator()(Index i) const {
-    Vec3d value = to_double(xyz(v[i]));
-    if (diagonal.data) {
-      const Vec3d d = to_double(xyz(diagonal[i]));
-      value = {d.x * value.x, d.y * value.y, d.z * value.z};
-    }
-    squared[i] = dot(value, value);
-  }
 };
 
 // delta = -dt K v / m with A = m + dt K, v the old velocity; the walls' share is in b - m u*.
@@ -99,6 +106,7 @@ void ViscousStep::resize(Index count, Offset pair_capacity) {
   constexpr Offset margin_percent = 1;
   predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
   wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
+  work_.resize(count);
 }
 
 LinearSystem ViscousStep::system(const PairContext& c) const {
@@ -107,14 +115,19 @@ LinearSystem ViscousStep::system(const PairContext& c) const {
           c.flow.coupling};
 }
 
-SolveResult ViscousStep::advance(const PairContext& whole, const RowCells& rows, const Step& step,
+SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
                                  Offset pair_capacity, FluidArrays& fluid) {
+  begin(c, step, pair_capacity, fluid);
+  return finish(read(), c, rows, step, fluid);
+}
+
+void ViscousStep::begin(const PairContext& whole, const Step& step, Offset pair_capacity,
+                        FluidArrays& fluid) {
   const Index n = fluid.count;
   resize(n, pair_capacity);
   if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step));
   const PairContext c = as_solved(whole);
-  const bool is_explicit = numerics_.viscous_step == ViscousStepping::explicit_step;
-  const auto theta = static_cast<Real>(is_explicit ? 1 : numerics_.theta);
+  const auto theta = static_cast<Real>(is_explicit() ? 1 : numerics_.theta);
   {
     Section timer(context_, "predictor and assembly");
     const PredictorOutput out{predicted_.span(), weight_.span(), diagonal_.span(), wall_.span(),
@@ -127,18 +140,39 @@ SolveResult ViscousStep::advance(const PairContext& whole, const RowCells& rows,
     launch(context_, "explicit half", n,
            ExplicitHalf{matrix, predicted_.span(), explicit_velocity(fluid), (1 - theta) / theta,
                         right_hand_side_.span()});
-  SolveResult result;
-  result.converged = true;
-  if (is_explicit)
+  if (is_explicit()) {
     launch(context_, "explicit step", n,
            ExplicitStep{matrix, predicted_.span(), fluid.motion.span(), fluid.increment.span()});
-  else if (exact_yield_stress())
-    result = solve_exact(matrix, c, rows, step, fluid.increment);
-  else
-    result = solve_for_increment(matrix, rows, step, fluid.increment);
-  launch(context_, "add increment", n,
-         AddIncrement{predicted_.span(), fluid.increment.span(), velocity_.span()});
+    launch(context_, "solved", 1, Declare{work_.state(), true});
+  } else if (exact_yield_stress()) {
+    launch(context_, "not solved", 1, Declare{work_.state(), false});
+  } else {
+    begin_solve(matrix, step, fluid.increment);
+  }
+  launch(
+      context_, "add increment", n,
+      if_converged(work_.state(), AddIncrement{predicted_.span(), fluid.increment.span(), velocity_.span()}));
+}
+
+SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole, const RowCells& rows,
+                                const Step& step, FluidArrays& fluid) {
+  const SolveState& s = now.solve;
+  if (is_explicit()) return {0, 0, 0, true};
+  if (s.converged) return {s.iterations, s.residual, s.right_hand_side, true};
+  Section timer(context_, "viscous solve");
+  const PairContext c = as_solved(whole);
+  const double wanted = wanted_residual(step, fluid.count);
+  const SolveResult result = exact_yield_stress()
+                                 ? solve_exact(system(c), c, rows, step, fluid.increment)
+                                 : go_on(system(c), rows, s, wanted * wanted / step.mass, fluid.increment);
+  if (result.converged) launch(context_, "solved", 1, Declare{work_.state(), true});
+  add_increment(fluid.increment);
   return result;
+}
+
+void ViscousStep::add_increment(const Buffer<Quad>& increment) {
+  launch(context_, "add increment", static_cast<Index>(increment.size()),
+         AddIncrement{predicted_.span(), increment.span(), velocity_.span()});
 }
 
 double ViscousStep::implicit_share() const {
@@ -167,67 +201,52 @@ Real ViscousStep::augmentation(const PairContext& c, const Step& step) const {
   return static_cast<Real>(relative_augmentation() * density * square(spacing) / step.dt);
 }
 
-SolveResult ViscousStep::solve_for_increment(const LinearSystem& matrix, const RowCells& rows,
-                                             const Step& step, Buffer<Quad>& increment) {
-  const Index n = matrix.size;
-  const double b = norm_of(right_hand_side_.span(), Weighted::no);
-  work_.residual.resize(n), work_.squared.resize(n);
-  launch(context_, "start", n,
-         StartFromPredicted{matrix, predicted_.span(), increment.span(), right_hand_side_.span(),
-                            work_.residual.span(), work_.squared.span()});
-  const double start = std::sqrt(sum(context_, work_.squared.span()));
-  // A >= m, so ||u - u_exact|| <= ||r|| / m: the residual bounds the rms velocity error.
-  const double wanted = wanted_residual(step, n), rounding = rounding_residual(increment.span(), start);
-  SolveResult result = solve(matrix, rows,
-                             {larger(wanted, rounding), wanted * wanted / step.mass, numerics_.max_iterations,
-                              numerics_.relaxation, start},
-                             increment);
-  result.right_hand_side = b;
-  return result;
+// Of conjugate gradients with the diagonal as preconditioner, from which multigrid takes over.
+int ViscousStep::most_by_diagonal(int patience) const {
+  if (numerics_.solver == ViscousSolver::multigrid) return smaller(patience, numerics_.max_iterations);
+  return numerics_.solver == ViscousSolver::conjugate_gradient ? numerics_.max_iterations : 0;
 }
 
+// The diagonal alone serves while a few iterations are enough: the coarse levels cost as much as some ten.
+void ViscousStep::begin_solve(const LinearSystem& matrix, const Step& step, Buffer<Quad>& increment) {
+  constexpr int patience = 4;
+  const int most = most_by_diagonal(patience);
+  launch_reduction<AddUp>(context_, "start", matrix.size,
+                          StartFromPredicted{matrix, predicted_.span(), increment.span(),
+                                             right_hand_side_.span(), work_.residual.span()},
+                          BeginSolve{work_.state(), wanted_residual(step, matrix.size), most});
+  if (most > 0) launch_conjugate_gradient(context_, matrix, smaller(patience, most), increment, work_);
+}
+
+// The rms velocity error that is allowed, as a residual.
 double ViscousStep::wanted_residual(const Step& step, Index count) const {
   return numerics_.tolerance * step.mass * step.kick * std::sqrt(static_cast<double>(count));
-}
-
-// Rounding keeps the residual above about epsilon ||D delta||, D the diagonal of A, and a millionth of its
-// start.
-double ViscousStep::rounding_residual(Span<const Quad> increment, double start) {
-  constexpr double epsilon = std::numeric_limits<Real>::epsilon();
-  return larger(epsilon * norm_of(increment, Weighted::by_diagonal), 8 * epsilon * start);
 }
 
 void ViscousStep::forget(Buffer<Quad>& increment) {
   launch(context_, "forget", static_cast<Index>(increment.size()), Forget{increment.span()});
 }
 
-double ViscousStep::norm_of(Span<const Quad> v, Weighted weighted) {
-  work_.squared.resize(v.size);
-  launch(context_, "norm", static_cast<Index>(v.size),
-         SquaredLength{v, weighted == Weighted::no ? Span<const Quad>{} : diagonal_.span(),
-                       work_.squared.span()});
-  return std::sqrt(sum(context_, work_.squared.span()));
-}
-
-SolveResult ViscousStep::solve(const LinearSystem& matrix, const RowCells& rows, const SolveLimits& limits,
-                               Buffer<Quad>& increment) {
+SolveResult ViscousStep::go_on(const LinearSystem& matrix, const RowCells& rows, const SolveState& now,
+                               double energy, Buffer<Quad>& increment) {
+  const SolveLimits limits{now.limit, energy, numerics_.max_iterations, numerics_.relaxation, now.residual};
+  SolveResult result{now.iterations, now.residual, now.right_hand_side, false};
   switch (numerics_.solver) {
     case ViscousSolver::jacobi:
-      return jacobi(context_, matrix, limits, increment, work_);
+      result = jacobi(context_, matrix, limits, increment, work_);
+      break;
     case ViscousSolver::sor:
-      return sor(context_, matrix, rows, limits, increment, work_);
+      result = sor(context_, matrix, rows, limits, increment, work_);
+      break;
     case ViscousSolver::conjugate_gradient:
-      return conjugate_gradient(context_, matrix, limits, increment, work_);
+      result = conjugate_gradient(context_, matrix, now, increment, work_);
+      break;
     case ViscousSolver::multigrid:
+      result = conjugate_gradient(context_, matrix, now, increment, work_);
+      if (!result.converged) multigrid_.solve(matrix, rows, limits, {increment, work_, result});
       break;
   }
-  // The diagonal alone serves while a few iterations are enough: the coarse levels cost as much as some ten.
-  // An exact yield stress has many solves with one matrix, each of few iterations.
-  const int patience = exact_yield_stress() ? 30 : 4;
-  SolveLimits first = limits;
-  first.max_iterations = smaller(patience, limits.max_iterations);
-  SolveResult result = conjugate_gradient(context_, matrix, first, increment, work_);
-  if (!result.converged) multigrid_.solve(matrix, rows, limits, {increment, work_, result});
+  result.right_hand_side = now.right_hand_side;
   return result;
 }
 

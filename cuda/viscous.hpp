@@ -24,6 +24,14 @@ class ViscousStep {
   };
   SolveResult advance(const PairContext&, const RowCells&, const Step&, Offset pair_capacity, FluidArrays&);
 
+  // The same in two parts. begin() waits for nothing; what comes behind it and is idle unless the solve has
+  // converged may be launched at once. finish() is told what read() gave, and when that had not converged,
+  // goes on until it has: then what was idle is to be launched again.
+  void begin(const PairContext&, const Step&, Offset pair_capacity, FluidArrays&);
+  StepRecord read() { return work_.read(context_); }
+  SolveResult finish(const StepRecord& now, const PairContext&, const RowCells&, const Step&, FluidArrays&);
+  StepRecord* record() { return work_.record.span().data; }
+
   // Sets the first guess to nothing.
   void forget(Buffer<Quad>& increment);
 
@@ -39,18 +47,18 @@ class ViscousStep {
 
  private:
   bool exact_yield_stress() const { return numerics_.yield == YieldModel::exact; }
-  enum class Weighted { no, by_diagonal };
-  double norm_of(Span<const Quad> v, Weighted);
+  bool is_explicit() const { return numerics_.viscous_step == ViscousStepping::explicit_step; }
   LinearSystem system(const PairContext&) const;
-  SolveResult solve_for_increment(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
+  double wanted_residual(const Step&, Index count) const;
+  int most_by_diagonal(int patience) const;
+  void begin_solve(const LinearSystem&, const Step&, Buffer<Quad>& increment);
+  SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,
+                    Buffer<Quad>& increment);
+  void add_increment(const Buffer<Quad>& increment);
   double relative_augmentation() const;
   Real augmentation(const PairContext&, const Step&) const;
   SolveResult solve_exact(const LinearSystem&, const PairContext&, const RowCells&, const Step&,
                           Buffer<Quad>& increment);
-  double wanted_residual(const Step&, Index count) const;
-  double rounding_residual(Span<const Quad> increment, double start);
-  SolveLimits exact_limits(const Step&, double start, Buffer<Quad>& increment);
-  SolveResult solve(const LinearSystem&, const RowCells&, const SolveLimits&, Buffer<Quad>& increment);
   void resize(Index count, Offset pair_capacity);
 
   Context& context_;

@@ -9,10 +9,12 @@
 
 namespace slagflow {
 
-// Costs, for estimates only; the time is that of the CPU build.
-inline constexpr double bytes_per_fluid_particle = 2800;
-inline constexpr double bytes_per_wall_particle = 500;
-inline constexpr double particle_steps_per_second = 4e5;  // fluid particles, two cores
+// Costs, for estimates only; the time is that of the CPU build. Measured in the dam at 1 mm, 102 000 fluid
+// and 66 600 wall particles: the process holds 2.2 kB a fluid particle, the device 1.65 kB of them; 3231
+// steps take 9.4 minutes on two cores.
+inline constexpr double bytes_per_fluid_particle = 2000;
+inline constexpr double bytes_per_wall_particle = 300;
+inline constexpr double particle_steps_per_second = 5.8e5;  // fluid particles, two cores
 
 struct FluidNumbers {
   std::string name;

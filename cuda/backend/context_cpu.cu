@@ -56,11 +56,13 @@ void* Context::workspace(std::size_t bytes) {
   return workspace_;
 }
 
+void* Context::ticket() { return nullptr; }
+
 void Context::copy_to_device(void* device, const void* host, std::size_t bytes) {
   if (bytes) std::memcpy(device, host, bytes);
 }
 void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
-  if (bytes) std::memcpy(host, device, bytes);
+  if (bytes) std::memcpy(host, device, bytes), ++waits_;
 }
 void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
   constexpr std::size_t piece = 1 << 18;  // bytes that one thread copies at a time

@@ -1,5 +1,7 @@
 #include <nvtx3/nvToolsExt.h>
 
+#include <cstring>
+
 #include "backend/check.hpp"
 #include "backend/context.hpp"
 #include "backend/device.hpp"
@@ -12,7 +14,9 @@ struct Context::Native {
     bool pending = false;
     double total = 0;
   };
+  static constexpr std::size_t staging_bytes = 1024;
   cudaStream_t stream = nullptr;
+  void* staging = nullptr;  // pinned memory of the host
   std::map<std::string, Timer> timers;
 
   // Adds the last interval of a timer, which ended about a step ago.
@@ -28,14 +32,17 @@ struct Context::Native {
 
 Context::Context() : native_(std::make_unique<Native>()) {
   check(cudaStreamCreateWithFlags(&native_->stream, cudaStreamNonBlocking), "stream create");
+  check(cudaMallocHost(&native_->staging, Native::staging_bytes), "pinned memory");
 }
 
 Context::~Context() {
   release(workspace_, workspace_bytes_);
+  release(ticket_, ticket_bytes);
   for (auto& [label, timer] : native_->timers) {
     cudaEventDestroy(timer.start);
     cudaEventDestroy(timer.stop);
   }
+  cudaFreeHost(native_->staging);
   cudaStreamDestroy(native_->stream);
 }
 
@@ -70,6 +77,14 @@ void* Context::workspace(std::size_t bytes) {
   return workspace_;
 }
 
+void* Context::ticket() {
+  if (!ticket_) {
+    ticket_ = allocate(ticket_bytes, "ticket");
+    check(cudaMemsetAsync(ticket_, 0, ticket_bytes, native_->stream), "clear");
+  }
+  return ticket_;
+}
+
 void Context::copy_to_device(void* device, const void* host, std::size_t bytes) {
   if (!bytes) return;
   check(cudaMemcpyAsync(device, host, bytes, cudaMemcpyHostToDevice, native_->stream), "copy to device");
@@ -78,6 +93,13 @@ void Context::copy_to_device(void* device, const void* host, std::size_t bytes) 
 
 void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
   if (!bytes) return;
+  if (bytes <= Native::staging_bytes) {  // pageable memory would be copied twice, and slowly
+    check(cudaMemcpyAsync(native_->staging, device, bytes, cudaMemcpyDeviceToHost, native_->stream),
+          "copy to host");
+    synchronize();
+    std::memcpy(host, native_->staging, bytes);
+    return;
+  }
   check(cudaMemcpyAsync(host, device, bytes, cudaMemcpyDeviceToHost, native_->stream), "copy to host");
   synchronize();
 }
@@ -87,7 +109,10 @@ void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
   check(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, native_->stream), "copy on device");
 }
 
-void Context::synchronize() { check(cudaStreamSynchronize(native_->stream), "synchronise"); }
+void Context::synchronize() {
+  ++waits_;
+  check(cudaStreamSynchronize(native_->stream), "synchronise");
+}
 
 void Context::begin(const char* label) {
   nvtxRangePushA(label);

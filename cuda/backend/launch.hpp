@@ -1,5 +1,6 @@
 // Runs a body once for each i in [0, n): a CUDA kernel, or an OpenMP loop in the CPU build.
 // A body is a small struct with `HOST_DEVICE void operator()(Index i) const` that writes only element i.
+// Where it has `HOST_DEVICE bool idle() const`, the device looks there first: when idle, nothing runs.
 #pragma once
 
 #include <type_traits>
@@ -13,10 +14,27 @@
 
 namespace slagflow {
 
+template <class Body, class = void>
+struct CanIdle : std::false_type {};
+template <class Body>
+struct CanIdle<Body, std::void_t<decltype(&Body::idle)>> : std::true_type {};
+
+template <class Body>
+HOST_DEVICE bool is_idle(const Body& body) {
+  if constexpr (CanIdle<Body>::value)
+    return body.idle();
+  else
+    return false;
+}
+
 #if defined(__CUDACC__)
+
+inline constexpr unsigned block_threads = 128;
+inline unsigned blocks_for(Index n) { return (static_cast<unsigned>(n) + block_threads - 1) / block_threads; }
 
 template <class Body>
 __global__ void run_body(Body body, Index n) {
+  if (is_idle(body)) return;
   const Offset i = static_cast<Offset>(blockIdx.x) * blockDim.x + threadIdx.x;
   if (i < n) body(static_cast<Index>(i));
 }
@@ -24,9 +42,7 @@ __global__ void run_body(Body body, Index n) {
 template <class Body>
 void launch(Context& context, const char* label, Index n, const Body& body) {
   if (n <= 0) return;
-  constexpr unsigned threads = 128;
-  const unsigned blocks = (static_cast<unsigned>(n) + threads - 1) / threads;
-  run_body<<<blocks, threads, 0, static_cast<cudaStream_t>(context.stream())>>>(body, n);
+  run_body<<<blocks_for(n), block_threads, 0, static_cast<cudaStream_t>(context.stream())>>>(body, n);
   check(cudaGetLastError(), label);
 }
 
@@ -44,6 +60,7 @@ struct Grain<Body, std::void_t<decltype(Body::grain)>> {
 
 template <class Body>
 void launch(Context&, const char*, Index n, const Body& body) {
+  if (is_idle(body)) return;
   constexpr Index grain = Grain<Body>::value;
 #pragma omp parallel for schedule(dynamic, grain) if (n > 2 * grain)
   for (Index i = 0; i < n; ++i) body(i);

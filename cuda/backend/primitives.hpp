@@ -30,6 +30,6 @@ void exclusive_scan(Context&, Span<const Offset> counts, Span<Offset> result);
 double sum(Context&, Span<const double> values);
 
 // Largest value, or `floor` when there is none larger. A not-a-number yields not-a-number.
-double maximum(Context&, Span<const Real> values, double floor);
+double maximum(Context&, Span<const double> values, double floor);
 
 }  // namespace slagflow

@@ -22,15 +22,15 @@ void exclusive_scan(Context&, Span<const Offset> counts, Span<Offset> result) {
 namespace {
 
 // Chunks of fixed length make the order of summation independent of the threads.
-template <class T, class Combine>
-double reduce_in_chunks(Span<const T> values, double start, Combine combine) {
+template <class Combine>
+double reduce_in_chunks(Span<const double> values, double start, Combine combine) {
   constexpr Offset chunk = 4096;
   const Offset chunks = (values.size + chunk - 1) / chunk;
   std::vector<double> partial(static_cast<std::size_t>(chunks), start);
 #pragma omp parallel for schedule(static)
   for (Offset c = 0; c < chunks; ++c) {
-    const T* first = values.data + c * chunk;
-    const T* last = values.data + (values.size < (c + 1) * chunk ? values.size : (c + 1) * chunk);
+    const double* first = values.data + c * chunk;
+    const double* last = values.data + (values.size < (c + 1) * chunk ? values.size : (c + 1) * chunk);
     partial[static_cast<std::size_t>(c)] = thrust::reduce(thrust::seq, first, last, start, combine);
   }
   return thrust::reduce(thrust::seq, partial.begin(), partial.end(), start, combine);
@@ -42,7 +42,7 @@ double sum(Context&, Span<const double> values) {
   return reduce_in_chunks(values, 0.0, [](double a, double b) { return a + b; });
 }
 
-double maximum(Context&, Span<const Real> values, double floor) {
+double maximum(Context&, Span<const double> values, double floor) {
   return reduce_in_chunks(values, floor, [](double a, double b) { return std::isnan(a) || a > b ? a : b; });
 }
 

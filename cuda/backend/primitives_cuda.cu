@@ -1,9 +1,8 @@
 #include <cub/device/device_radix_sort.cuh>
-#include <cub/device/device_reduce.cuh>
 #include <cub/device/device_scan.cuh>
 
 #include "backend/check.hpp"
-#include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 
 namespace slagflow {
 
@@ -21,10 +20,6 @@ void* with_workspace(Context& context, const char* what, Call call) {
   check(call(memory, bytes, result), what);
   return result;
 }
-
-struct Larger {
-  __host__ __device__ double operator()(double a, double b) const { return a != a || a > b ? a : b; }
-};
 
 }  // namespace
 
@@ -53,25 +48,37 @@ void exclusive_scan(Context& context, Span<const Offset> counts, Span<Offset> re
   });
 }
 
-double sum(Context& context, Span<const double> values) {
-  auto* stream = static_cast<cudaStream_t>(context.stream());
-  void* result = with_workspace(context, "sum", [&](void* memory, std::size_t& bytes, void* out) {
-    return cub::DeviceReduce::Sum(memory, bytes, values.data, static_cast<double*>(out), values.size, stream);
-  });
+namespace {
+
+struct Value {
+  static constexpr int terms = 1;
+  Span<const double> values;
+  HOST_DEVICE Terms<1> operator()(Index i) const { return {{values[i]}}; }
+};
+
+struct Keep {
+  double* result;
+  HOST_DEVICE void operator()(const Terms<1>& all) const { *result = all.value[0]; }
+};
+
+template <class Reduction>
+double reduced(Context& context, Span<const double> values) {
+  auto* result = reinterpret_cast<double*>(static_cast<char*>(context.ticket()) + Context::result_at);
+  launch_reduction<Reduction>(context, "reduction", static_cast<Index>(values.size), Value{values},
+                              Keep{result});
   double host = 0;
   context.copy_to_host(&host, result, sizeof host);
   return host;
 }
 
-double maximum(Context& context, Span<const Real> values, double floor) {
-  auto* stream = static_cast<cudaStream_t>(context.stream());
-  void* result = with_workspace(context, "maximum", [&](void* memory, std::size_t& bytes, void* out) {
-    return cub::DeviceReduce::Reduce(memory, bytes, values.data, static_cast<double*>(out), values.size,
-                                     Larger{}, floor, stream);
-  });
-  double host = 0;
-  context.copy_to_host(&host, result, sizeof host);
-  return host;
+double above(double floor, double largest) { return largest < floor ? floor : largest; }
+
+}  // namespace
+
+double sum(Context& context, Span<const double> values) { return reduced<AddUp>(context, values); }
+
+double maximum(Context& context, Span<const double> values, double floor) {
+  return above(floor, reduced<TakeLargest>(context, values));
 }
 
 }  // namespace slagflow

@@ -5,105 +5,101 @@ namespace slagflow {
 
 namespace {
 
-HOST_DEVICE inline Vec3 preconditioned(Quad r, Quad diagonal) {
-  return {r.x / diagonal.x, r.y / diagonal.y, r.z / diagonal.z};
-}
-
-// r.z of the start.
-struct StartProduct {
-  Span<const Quad> diagonal, r;
-  Span<double> product;
-  HOST_DEVICE void operator()(Index i) const {
-    product[i] = dot(to_double(xyz(r[i])), to_double(preconditioned(r[i], diagonal[i])));
-  }
-};
+constexpr int restarts = 3;
+// Iterations from which the recursive residual may differ from the true one.
+constexpr int drift_matters = 10;
 
 // p = z + beta p
 struct NewDirection {
   Span<const Quad> diagonal, r;
   Span<Quad> p;
-  Real beta;  // 0: p is not read
+  const SolveState* state;
+  HOST_DEVICE bool idle() const { return !state->running; }
   HOST_DEVICE void operator()(Index i) const {
-    const Vec3 z = preconditioned(r[i], diagonal[i]);
+    const Real beta = state->beta;
+    const Vec3 z = over_diagonal(xyz(r[i]), diagonal[i]);
     p[i] = quad(beta == 0 ? z : z + beta * xyz(p[i]), 0);
-  }
-};
-
-// A p and p.A p
-struct Multiply {
-  LinearSystem system;
-  Span<const Quad> p;
-  Span<Quad> product;
-  Span<double> scalar;
-  HOST_DEVICE void operator()(Index i) const {
-    const Vec3 value = system.apply(i, p);
-    product[i] = quad(value, 0);
-    scalar[i] = dot(to_double(xyz(p[i])), to_double(value));
   }
 };
 
 // u += alpha p, r -= alpha A p; r.r and r.z of the new residual
 struct Advance {
+  static constexpr int terms = 2;
   Span<const Quad> diagonal, p, product;
   Span<Quad> u, r;
-  Span<double> squared, weighted;
-  Real alpha;
-  HOST_DEVICE void operator()(Index i) const {
+  SolveState* state;
+  HOST_DEVICE bool idle() const { return !state->running; }
+  HOST_DEVICE Terms<2> operator()(Index i) const {
+    const Real alpha = state->alpha;
     u[i] = quad(xyz(u[i]) + alpha * xyz(p[i]), 0);
     const Vec3 value = xyz(r[i]) - alpha * xyz(product[i]);
     r[i] = quad(value, 0);
-    squared[i] = dot(to_double(value), to_double(value));
-    weighted[i] = dot(to_double(value), to_double(preconditioned(r[i], diagonal[i])));
+    return {{dot(to_double(value), to_double(value)),
+             dot(to_double(value), to_double(over_diagonal(value, diagonal[i])))}};
   }
 };
 
-// Iterates from the residual at hand until the recursive residual is small enough.
-void iterate(Context& context, const LinearSystem& system, const SolveLimits& limits, Buffer<Quad>& u,
-             SolverWorkspace& work, SolveResult& result) {
-  const Index n = system.size;
-  const auto r = work.residual.span(), p = work.direction.span();
-  launch(context, "r.z", n, StartProduct{system.diagonal, r, work.other.span()});
-  double rz = sum(context, work.other.span());
-  Real beta = 0;
-  while (result.iterations < limits.max_iterations) {
-    launch(context, "direction", n, NewDirection{system.diagonal, r, p, beta});
-    launch(context, "multiply", n, Multiply{system, p, work.product.span(), work.other.span()});
-    const double curvature = sum(context, work.other.span());
-    if (!(curvature > 0)) return;  // breakdown: not a number, or nothing left to gain
-    const auto alpha = static_cast<Real>(rz / curvature);
-    launch(context, "advance", n,
-           Advance{system.diagonal, p, work.product.span(), u.span(), r, work.squared.span(),
-                   work.other.span(), alpha});
-    const double rz_next = sum(context, work.other.span());
-    result.residual = std::sqrt(sum(context, work.squared.span()));
-    ++result.iterations;
-    if (result.residual <= limits.residual) return;
-    beta = static_cast<Real>(rz_next / rz);
-    rz = rz_next;
+struct JudgeIteration {
+  SolveState* state;
+  HOST_DEVICE void operator()(const Terms<2>& sums) const {
+    SolveState& s = *state;
+    s.residual = std::sqrt(sums.value[0]);
+    ++s.iterations;
+    s.beta = static_cast<Real>(sums.value[1] / s.rz);
+    s.rz = sums.value[1];
+    const bool met = s.residual <= s.limit;
+    if (met && s.iterations - s.started_at < drift_matters) s.converged = 1;
+    s.running = !met && s.iterations < s.most_iterations ? 1 : 0;
   }
-}
+};
+
+// The true residual once iterations have ended for another reason than that few of them were enough.
+struct TrueResidual : Residual {
+  const SolveState* state;
+  HOST_DEVICE bool idle() const { return state->running || state->converged; }
+};
+
+// Goes on from the true residual if it is still too large.
+struct JudgeSolution {
+  SolveState* state;
+  HOST_DEVICE void operator()(const Terms<2>& sums) const {
+    SolveState& s = *state;
+    s.residual = std::sqrt(sums.value[0]);
+    s.rz = sums.value[1];
+    s.beta = 0;
+    s.started_at = s.iterations;
+    ++s.starts;
+    s.running = s.residual > s.limit && s.iterations < s.most_iterations && s.starts < restarts ? 1 : 0;
+    if (!s.running) s.converged = s.residual <= 2 * s.limit ? 1 : 0;
+  }
+};
 
 }  // namespace
 
-SolveResult conjugate_gradient(Context& context, const LinearSystem& system, const SolveLimits& limits,
-                               Buffer<Quad>& u, SolverWorkspace& work) {
-  constexpr int restarts = 3;
-  constexpr int drift_matters =
-      10;  // iterations from which the recursive residual may differ from the true one
+void launch_conjugate_gradient(Context& context, const LinearSystem& system, int iterations, Buffer<Quad>& u,
+                               SolverWorkspace& work) {
   const Index n = system.size;
-  work.direction.resize(n), work.product.resize(n), work.other.resize(n);
-  SolveResult result;
-  work.squared.resize(n);
-  result.residual = start_residual(context, system, limits, u.span(), work.residual, work.squared);
-  for (int start = 0; start < restarts && result.residual > limits.residual; ++start) {
-    const int before = result.iterations;
-    iterate(context, system, limits, u, work, result);
-    if (result.iterations - before < drift_matters && result.residual <= limits.residual) break;
-    result.residual = residual_norm(context, system, u.span(), work.residual, work.squared);
-    if (result.iterations >= limits.max_iterations) break;
+  const auto r = work.residual.span(), p = work.direction.span(), product = work.product.span();
+  SolveState* state = work.state();
+  for (int k = 0; k < iterations; ++k) {
+    launch(context, "direction", n, NewDirection{system.diagonal, r, p, state});
+    launch_reduction<AddUp>(context, "multiply", n, while_running(state, Multiply{system, p, product}),
+                            JudgeDirection{state});
+    launch_reduction<AddUp>(context, "advance", n, Advance{system.diagonal, p, product, u.span(), r, state},
+                            JudgeIteration{state});
   }
-  result.converged = result.residual <= 2 * limits.residual;
-  return result;
+  launch_reduction<AddUp>(context, "residual", n, TrueResidual{{system, u.span(), r}, state},
+                          JudgeSolution{state});
+}
+
+SolveResult conjugate_gradient(Context& context, const LinearSystem& system, SolveState now, Buffer<Quad>& u,
+                               SolverWorkspace& work) {
+  constexpr int at_a_time = 8;
+  while (now.running) {
+    launch_conjugate_gradient(context, system, at_a_time, u, work);
+    now = work.read(context).solve;
+  }
+  return {now.iterations, now.residual, now.right_hand_side, now.converged != 0};
 }
 
 }  // namespace slagflow

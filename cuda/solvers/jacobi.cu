@@ -7,14 +7,14 @@ namespace {
 
 // r and the correction D^-1 r, D the 3x3 diagonal block. A <= 2 D, hence it converges for any pair system.
 struct Sweep {
+  static constexpr int terms = 2;  // as those of Residual
   LinearSystem system;
   Span<const Quad> u;
   Span<Quad> correction;
-  Span<double> squared;
-  HOST_DEVICE void operator()(Index i) const {
+  HOST_DEVICE Terms<2> operator()(Index i) const {
     const RelaxationRow row(system, i, u);
     correction[i] = quad(row.block.solve(row.residual), 0);
-    squared[i] = dot(to_double(row.residual), to_double(row.residual));
+    return {{dot(to_double(row.residual), to_double(row.residual)), 0}};
   }
 };
 
@@ -29,11 +29,10 @@ struct Correct {
 SolveResult jacobi(Context& context, const LinearSystem& system, const SolveLimits& limits, Buffer<Quad>& u,
                    SolverWorkspace& work) {
   SolveResult result;
-  work.direction.resize(system.size), work.squared.resize(system.size);
   for (;;) {
-    launch(context, "sweep", system.size,
-           Sweep{system, u.span(), work.direction.span(), work.squared.span()});
-    result.residual = std::sqrt(sum(context, work.squared.span()));
+    launch_reduction<AddUp>(context, "sweep", system.size, Sweep{system, u.span(), work.direction.span()},
+                            KeepResidual{work.state()});
+    result.residual = work.read(context).solve.residual;
     result.converged = result.residual <= limits.residual;
     if (result.converged || result.iterations == limits.max_iterations || !std::isfinite(result.residual))
       return result;

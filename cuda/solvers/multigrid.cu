@@ -31,14 +31,14 @@ struct RestrictRows {
 
 // z = D^-1 r + P e, and r.z.
 struct ProlongToRows {
+  static constexpr int terms = 1;
   LinearSystem system;
   AggregateView aggregates;
   Span<const Index> owner;
   Span<const double> motion;
   Span<const Quad> r;
   Span<Quad> z;
-  Span<double> product;
-  HOST_DEVICE void operator()(Index i) const {
+  HOST_DEVICE Terms<1> operator()(Index i) const {
     const Index a = owner[i];
     const RigidMotion e = load_motion(motion.data + static_cast<Offset>(a) * motions);
     const Vec3 coarse = to_real(e.at(arm(system, aggregates, i, a), aggregates.grid.scale));
@@ -46,7 +46,7 @@ struct ProlongToRows {
     const Vec3 here = xyz(r[i]);
     const Vec3 value = Vec3{here.x / d.x, here.y / d.y, here.z / d.z} + coarse;
     z[i] = quad(value, 0);
-    product[i] = dot(to_double(here), to_double(value));
+    return {{dot(to_double(here), to_double(value))}};
   }
 };
 
@@ -138,37 +138,70 @@ struct DenseMultiply {
 struct NewDirection {
   Span<const Quad> z;
   Span<Quad> p;
-  Real beta;  // 0: p is not read
+  const SolveState* state;
+  HOST_DEVICE bool idle() const { return !state->running; }
   HOST_DEVICE void operator()(Index i) const {
+    const Real beta = state->beta;
     p[i] = quad(beta == 0 ? xyz(z[i]) : xyz(z[i]) + beta * xyz(p[i]), 0);
-  }
-};
-
-// A p and p.A p
-struct Multiply {
-  LinearSystem system;
-  Span<const Quad> p;
-  Span<Quad> product;
-  Span<double> scalar;
-  HOST_DEVICE void operator()(Index i) const {
-    const Vec3 value = system.apply(i, p);
-    product[i] = quad(value, 0);
-    scalar[i] = dot(to_double(xyz(p[i])), to_double(value));
   }
 };
 
 // u += alpha p, r -= alpha A p
 struct Advance {
+  static constexpr int terms = 1;
   Span<const Quad> p, product;
   Span<Quad> u, r;
-  Span<double> squared;
-  Real alpha;
-  HOST_DEVICE void operator()(Index i) const {
+  SolveState* state;
+  HOST_DEVICE bool idle() const { return !state->running; }
+  HOST_DEVICE Terms<1> operator()(Index i) const {
+    const Real alpha = state->alpha;
     u[i] = quad(xyz(u[i]) + alpha * xyz(p[i]), 0);
     const Vec3 value = xyz(r[i]) - alpha * xyz(product[i]);
     r[i] = quad(value, 0);
-    squared[i] = dot(to_double(value), to_double(value));
+    return {{dot(to_double(value), to_double(value))}};
   }
+};
+
+struct JudgeResidual {
+  SolveState* state;
+  HOST_DEVICE void operator()(const Terms<1>& squared) const {
+    state->residual = std::sqrt(squared.value[0]);
+    ++state->iterations;
+    if (state->residual <= state->limit) state->running = 0;  // as far as rounding shows
+  }
+};
+
+struct StartAgain {
+  SolveState* state;
+  int most_iterations;
+  HOST_DEVICE void operator()(Index) const {
+    state->most_iterations = most_iterations;
+    state->running = 1;
+  }
+};
+
+// The energy of the error is bounded by r.z.
+struct JudgeEnergy {
+  SolveState* state;
+  double bound;
+  bool first;
+  HOST_DEVICE void operator()(const Terms<1>& rz) const {
+    SolveState& s = *state;
+    s.beta = first ? 0 : static_cast<Real>(rz.value[0] / s.rz);
+    s.rz = rz.value[0];
+    if (s.rz <= bound) s.converged = 1;
+    s.running = !s.converged && s.iterations < s.most_iterations ? 1 : 0;
+  }
+};
+
+struct Ignore {
+  HOST_DEVICE void operator()(const Terms<1>&) const {}
+};
+
+// The true residual, when iterations have ended.
+struct ResidualAtEnd : Residual {
+  const SolveState* state;
+  HOST_DEVICE bool idle() const { return state->running; }
 };
 
 }  // namespace
@@ -176,32 +209,30 @@ struct Advance {
 Multigrid::Multigrid(Context& c)
     : context_(c), dense_(c, "coarsest inverse"), preconditioned_(c, "preconditioned residual") {}
 
-bool Multigrid::iterate(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
-                        Problem& problem) {
+SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
+                              Problem& problem) {
+  constexpr int at_a_time = 2;
   const Index n = system.size;
   SolverWorkspace& work = problem.work;
   const auto r = work.residual.span(), p = work.direction.span(), z = preconditioned_.span();
-  precondition(system, rows, r, z, work.other.span());
-  double rz = sum(context_, work.other.span());
-  Real beta = 0;
-  while (!(rz <= limits.energy * least_eigenvalue)) {
-    if (problem.result.iterations >= limits.max_iterations) return false;
-    launch(context_, "direction", n, NewDirection{z, p, beta});
-    launch(context_, "multiply", n, Multiply{system, p, work.product.span(), work.other.span()});
-    const double curvature = sum(context_, work.other.span());
-    if (!(curvature > 0)) return false;  // breakdown: not a number, or nothing left to gain
-    launch(context_, "advance", n,
-           Advance{p, work.product.span(), problem.u.span(), r, work.squared.span(),
-                   static_cast<Real>(rz / curvature)});
-    problem.result.residual = std::sqrt(sum(context_, work.squared.span()));
-    ++problem.result.iterations;
-    if (problem.result.residual <= limits.residual) return false;  // as far as rounding shows
-    precondition(system, rows, r, z, work.other.span());
-    const double rz_next = sum(context_, work.other.span());
-    beta = static_cast<Real>(rz_next / rz);
-    rz = rz_next;
+  const auto product = work.product.span(), u = problem.u.span();
+  SolveState* state = work.state();
+  const double bound = limits.energy * least_eigenvalue;
+  launch(context_, "start again", 1, StartAgain{state, limits.max_iterations});
+  precondition(system, rows, r, z, JudgeEnergy{state, bound, true});
+  for (;;) {
+    for (int k = 0; k < at_a_time; ++k) {
+      launch(context_, "direction", n, NewDirection{z, p, state});
+      launch_reduction<AddUp>(context_, "multiply", n, while_running(state, Multiply{system, p, product}),
+                              JudgeDirection{state});
+      launch_reduction<AddUp>(context_, "advance", n, Advance{p, product, u, r, state}, JudgeResidual{state});
+      precondition(system, rows, r, z, JudgeEnergy{state, bound, false});
+    }
+    launch_reduction<AddUp>(context_, "residual", n, ResidualAtEnd{{system, u, r}, state},
+                            KeepResidual{state});
+    const SolveState now = work.read(context_).solve;
+    if (!now.running) return now;
   }
-  return true;
 }
 
 void Multigrid::solve(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
@@ -209,18 +240,17 @@ void Multigrid::solve(const LinearSystem& system, const RowCells& rows, const So
   constexpr int restarts = 3;
   preconditioned_.resize(system.size);
   build(system, rows);
+  state_ = problem.work.state();
   SolveResult& result = problem.result;
   for (int start = 0; start < restarts && result.residual > limits.residual; ++start) {
     if (result.iterations >= limits.max_iterations) break;
-    const bool close = iterate(system, rows, limits, problem);
-    result.residual =
-        residual_norm(context_, system, problem.u.span(), problem.work.residual, problem.work.squared);
-    if (close) {
-      result.converged = true;
-      return;
-    }
+    const SolveState now = iterate(system, rows, limits, problem);
+    result.iterations = now.iterations, result.residual = now.residual;
+    result.converged = now.converged != 0;
+    if (result.converged) break;
   }
-  result.converged = result.residual <= 2 * limits.residual;
+  state_ = nullptr;
+  if (!result.converged) result.converged = result.residual <= 2 * limits.residual;
 }
 
 void Multigrid::build(const LinearSystem& system, const RowCells& rows) {
@@ -241,9 +271,15 @@ void Multigrid::build(const LinearSystem& system, const RowCells& rows) {
   dense_.upload(levels_[used_ - 1]->matrix.dense_inverse());
 }
 
+template <class Body>
+void Multigrid::launch_level(const char* label, Index n, const Body& body) {
+  launch(context_, label, n, while_running(state_, body));
+}
+
 void Multigrid::residual(Level& level) {
-  launch(context_, "coarse residual", static_cast<Index>(level.force.size()),
-         CoarseResidual{level.matrix.view(), level.force.span(), level.motion.span(), level.rest.span()});
+  launch_level(
+      "coarse residual", static_cast<Index>(level.force.size()),
+      CoarseResidual{level.matrix.view(), level.force.span(), level.motion.span(), level.rest.span()});
 }
 
 // A W cycle for A z = force, from z = 0.
@@ -251,37 +287,41 @@ void Multigrid::cycle(std::size_t number) {
   Level& level = *levels_[number];
   const auto rows = static_cast<Index>(level.force.size());
   if (number + 1 == used_) {
-    launch(context_, "coarsest solve", rows,
-           DenseMultiply{dense_.span(), level.force.span(), level.motion.span()});
+    launch_level("coarsest solve", rows,
+                 DenseMultiply{dense_.span(), level.force.span(), level.motion.span()});
     return;
   }
   Level& coarser = *levels_[number + 1];
   const AggregateView fine = level.matrix.view().aggregates, coarse = coarser.matrix.view().aggregates;
   const Span<const double> inverse = level.matrix.view().inverse;
-  launch(context_, "smooth", rows,
-         SmoothBlocks{inverse, level.force.span(), From::zero, level.motion.span()});
+  launch_level("smooth", rows, SmoothBlocks{inverse, level.force.span(), From::zero, level.motion.span()});
   constexpr int visits = 2;
   for (int visit = 0; visit < visits; ++visit) {
     residual(level);
-    launch(context_, "restrict", coarse.count,
-           RestrictParts{fine, coarse, level.rest.span(), coarser.force.span()});
+    launch_level("restrict", coarse.count,
+                 RestrictParts{fine, coarse, level.rest.span(), coarser.force.span()});
     cycle(number + 1);
-    launch(context_, "prolong", fine.count,
-           ProlongToParts{fine, coarse, coarser.motion.span(), level.motion.span()});
+    launch_level("prolong", fine.count,
+                 ProlongToParts{fine, coarse, coarser.motion.span(), level.motion.span()});
   }
   residual(level);
-  launch(context_, "smooth", rows,
-         SmoothBlocks{inverse, level.rest.span(), From::motion, level.motion.span()});
+  launch_level("smooth", rows, SmoothBlocks{inverse, level.rest.span(), From::motion, level.motion.span()});
+}
+
+template <class Finish>
+void Multigrid::precondition(const LinearSystem& system, const RowCells& rows, Span<const Quad> r,
+                             Span<Quad> z, Finish finish) {
+  Level& finest = *levels_.front();
+  const AggregateView a = finest.matrix.view().aggregates;
+  launch_level("restrict", a.count, RestrictRows{system, rows, a, r, finest.force.span()});
+  cycle(0);
+  const ProlongToRows prolong{system, a, finest.matrix.owner(), finest.motion.span(), r, z};
+  launch_reduction<AddUp>(context_, "prolong", system.size, while_running(state_, prolong), finish);
 }
 
 void Multigrid::precondition(const LinearSystem& system, const RowCells& rows, Span<const Quad> r,
-                             Span<Quad> z, Span<double> product) {
-  Level& finest = *levels_.front();
-  const AggregateView a = finest.matrix.view().aggregates;
-  launch(context_, "restrict", a.count, RestrictRows{system, rows, a, r, finest.force.span()});
-  cycle(0);
-  launch(context_, "prolong", system.size,
-         ProlongToRows{system, a, finest.matrix.owner(), finest.motion.span(), r, z, product});
+                             Span<Quad> z) {
+  precondition(system, rows, r, z, Ignore{});
 }
 
 }  // namespace slagflow

@@ -28,9 +28,8 @@ class Multigrid {
 
   // Sets up the coarse levels.
   void build(const LinearSystem&, const RowCells&);
-  // z = M^-1 r, M the preconditioner; r.z per row into `product`.
-  void precondition(const LinearSystem&, const RowCells&, Span<const Quad> r, Span<Quad> z,
-                    Span<double> product);
+  // z = M^-1 r, M the preconditioner.
+  void precondition(const LinearSystem&, const RowCells&, Span<const Quad> r, Span<Quad> z);
 
  private:
   struct Level {
@@ -40,8 +39,13 @@ class Multigrid {
     Buffer<double> force, motion, rest;
   };
 
-  // Whether it ended because the energy of the error is small enough.
-  bool iterate(const LinearSystem&, const RowCells&, const SolveLimits&, Problem&);
+  // Iterates anew from the residual at hand; the state tells how it ended, and the true residual.
+  SolveState iterate(const LinearSystem&, const RowCells&, const SolveLimits&, Problem&);
+  template <class Finish>
+  void precondition(const LinearSystem&, const RowCells&, Span<const Quad> r, Span<Quad> z, Finish);
+  // While iterations go on.
+  template <class Body>
+  void launch_level(const char* label, Index n, const Body&);
   void cycle(std::size_t number);
   void residual(Level&);
 
@@ -50,6 +54,7 @@ class Multigrid {
   std::size_t used_ = 0;
   Buffer<double> dense_;  // inverse of the coarsest matrix
   Buffer<Quad> preconditioned_;
+  const SolveState* state_ = nullptr;  // of the solve under way
 };
 
 }  // namespace slagflow

@@ -2,40 +2,70 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
-#include "backend/buffer.hpp"
-#include "backend/launch.hpp"
-#include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 #include "linear_system.hpp"
+#include "solvers/solver.hpp"
 
 namespace slagflow {
 
-// r_i = b_i - (A u)_i, and its squared length.
+// z = D^-1 r, D the point diagonal.
+HOST_DEVICE inline Vec3 over_diagonal(Vec3 r, Quad diagonal) {
+  return {r.x / diagonal.x, r.y / diagonal.y, r.z / diagonal.z};
+}
+
+// |D_i u_i|^2, D the point diagonal.
+HOST_DEVICE inline double scaled_squared(Quad diagonal, Quad u) {
+  const Vec3d d = to_double(xyz(diagonal)), value = to_double(xyz(u));
+  const Vec3d scaled{d.x * value.x, d.y * value.y, d.z * value.z};
+  return dot(scaled, scaled);
+}
+
+// Rounding keeps the residual above about epsilon ||D u||, whose square is `scaled`, and a millionth of its
+// start.
+HOST_DEVICE inline double rounding_residual(double scaled, double start) {
+  constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
+  return larger(epsilon * std::sqrt(scaled), 8 * epsilon * start);
+}
+
+// r_i = b_i - (A u)_i, its squared length and r.z.
 struct Residual {
+  static constexpr int terms = 2;
   LinearSystem system;
   Span<const Quad> u;
   Span<Quad> r;
-  Span<double> squared;
-  HOST_DEVICE void operator()(Index i) const {
+  HOST_DEVICE Terms<2> operator()(Index i) const {
     const Vec3 value = xyz(system.right_hand_side[i]) - system.apply(i, u);
     r[i] = quad(value, 0);
-    squared[i] = dot(to_double(value), to_double(value));
+    return {{dot(to_double(value), to_double(value)),
+             dot(to_double(value), to_double(over_diagonal(value, system.diagonal[i])))}};
   }
 };
 
-// ||b - A u||; leaves the residual in r.
-inline double residual_norm(Context& context, const LinearSystem& system, Span<const Quad> u, Buffer<Quad>& r,
-                            Buffer<double>& squared) {
-  r.resize(system.size);
-  squared.resize(system.size);
-  launch(context, "residual", system.size, Residual{system, u, r.span(), squared.span()});
-  return std::sqrt(sum(context, squared.span()));
-}
+struct KeepResidual {
+  SolveState* state;
+  HOST_DEVICE void operator()(const Terms<2>& sums) const { state->residual = std::sqrt(sums.value[0]); }
+};
 
-// The same for the first guess, which may come with its residual.
-inline double start_residual(Context& context, const LinearSystem& system, const SolveLimits& limits,
-                             Span<const Quad> u, Buffer<Quad>& r, Buffer<double>& squared) {
-  return limits.start_residual >= 0 ? limits.start_residual : residual_norm(context, system, u, r, squared);
-}
+// A p and p.A p
+struct Multiply {
+  static constexpr int terms = 1;
+  LinearSystem system;
+  Span<const Quad> p;
+  Span<Quad> product;
+  HOST_DEVICE Terms<1> operator()(Index i) const {
+    const Vec3 value = system.apply(i, p);
+    product[i] = quad(value, 0);
+    return {{dot(to_double(xyz(p[i])), to_double(value))}};
+  }
+};
+
+struct JudgeDirection {
+  SolveState* state;
+  HOST_DEVICE void operator()(const Terms<1>& curvature) const {
+    state->direction_curves(curvature.value[0]);
+  }
+};
 
 }  // namespace slagflow

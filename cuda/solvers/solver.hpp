@@ -3,6 +3,7 @@
 
 #include "backend/buffer.hpp"
 #include "linear_system.hpp"
+#include "step_record.hpp"
 
 namespace slagflow {
 
@@ -11,16 +12,31 @@ struct SolverWorkspace {
       : residual(c, "solver residual"),
         direction(c, "solver direction"),
         product(c, "solver product"),
-        squared(c, "solver sums"),
-        other(c, "solver sums") {}
+        record(c, "step record") {
+    record.upload({StepRecord{}});
+  }
+  void resize(Index n) { residual.resize(n), direction.resize(n), product.resize(n); }
+  SolveState* state() { return &record.span().data->solve; }
+  // What the device has found up to now; waits for it.
+  StepRecord read(Context& context) {
+    StepRecord now;
+    context.copy_to_host(&now, record.span().data, sizeof now);
+    return now;
+  }
+
   Buffer<Quad> residual, direction, product;
-  Buffer<double> squared, other;
+  Buffer<StepRecord> record;
 };
 
-// Each starts from u (warm start), leaves the solution there and reports the true residual.
+// Each starts from u (warm start) with its residual in the workspace and its state begun, leaves the solution
+// in u and reports the true residual.
 
-// Conjugate gradients with the point diagonal as preconditioner. M. R. Hestenes, E. Stiefel (1952).
-SolveResult conjugate_gradient(Context&, const LinearSystem&, const SolveLimits&, Buffer<Quad>& u,
+// Conjugate gradients with the point diagonal as preconditioner. M. R. Hestenes, E. Stiefel (1952). The first
+// iterations are launched without waiting for them; the rest, where the state says that there is one, by and
+// by.
+void launch_conjugate_gradient(Context&, const LinearSystem&, int iterations, Buffer<Quad>& u,
+                               SolverWorkspace&);
+SolveResult conjugate_gradient(Context&, const LinearSystem&, SolveState now, Buffer<Quad>& u,
                                SolverWorkspace&);
 
 // Jacobi with the 3x3 diagonal blocks.

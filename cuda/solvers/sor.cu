@@ -66,13 +66,21 @@ void sweep(Context& context, const LinearSystem& system, const RowCells& rows, R
   }
 }
 
+// ||b - A u||; waits for it.
+double residual_norm(Context& context, const LinearSystem& system, Span<const Quad> u,
+                     SolverWorkspace& work) {
+  launch_reduction<AddUp>(context, "residual", system.size, Residual{system, u, work.residual.span()},
+                          KeepResidual{work.state()});
+  return work.read(context).solve.residual;
+}
+
 }  // namespace
 
 SolveResult sor(Context& context, const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
                 Buffer<Quad>& u, SolverWorkspace& work) {
   constexpr int sweeps_per_check = 2;  // a check costs as much as a sweep
   SolveResult result;
-  result.residual = start_residual(context, system, limits, u.span(), work.residual, work.squared);
+  result.residual = limits.start_residual;
   for (;;) {
     result.converged = result.residual <= limits.residual;
     if (result.converged || result.iterations >= limits.max_iterations || !std::isfinite(result.residual))
@@ -80,7 +88,7 @@ SolveResult sor(Context& context, const LinearSystem& system, const RowCells& ro
     for (int s = 0; s < sweeps_per_check; ++s)
       sweep(context, system, rows, static_cast<Real>(limits.relaxation), u.span());
     result.iterations += sweeps_per_check;
-    result.residual = residual_norm(context, system, u.span(), work.residual, work.squared);
+    result.residual = residual_norm(context, system, u.span(), work);
   }
 }
 

@@ -1,5 +1,4 @@
-#include "backend/launch.hpp"
-#include "backend/primitives.hpp"
+#include "diagnostic_sums.hpp"
 #include "pair_pressure.hpp"
 #include "smoothing/lucy.hpp"
 #include "walls/wall_forces.hpp"
@@ -78,13 +77,12 @@ struct ImpulseTerm {
   Span<const Impulse> impulse;
   Span<const std::uint8_t> body;
   int wanted, term;
-  Span<double> result;
 
-  HOST_DEVICE void operator()(Index i) const {
+  HOST_DEVICE double operator()(Index i) const {
     const Impulse& p = impulse[i];
     const Vec3d vectors[4] = {p.pressure, p.viscous, p.pressure_torque, p.viscous_torque};
     const bool counts = wanted < 0 || body[i] == wanted;
-    result[i] = counts ? (term < 12 ? vectors[term / 3][term % 3] : p.work) : 0;
+    return counts ? (term < 12 ? vectors[term / 3][term % 3] : p.work) : 0;
   }
 };
 constexpr int work_term = 12;
@@ -92,10 +90,7 @@ constexpr int work_term = 12;
 }  // namespace
 
 WallForces::WallForces(Context& c)
-    : context_(c),
-      impulse_(c, "wall impulses"),
-      body_(c, "walls of wall impulses"),
-      terms_(c, "wall impulse terms") {}
+    : context_(c), impulse_(c, "wall impulses"), body_(c, "walls of wall impulses"), scratch_(c) {}
 
 void WallForces::start(const std::vector<std::uint8_t>& body) {
   impulse_.upload(std::vector<Impulse>(body.size()));
@@ -106,21 +101,27 @@ void WallForces::add(const PairContext& c, const ListView& list, const WallArray
                      const WallForceStep& step) {
   const Lucy smoothing(static_cast<double>(c.flow.support), c.flow.dimensions);
   auto sweep = [&](auto box) {
-    launch(context_, "wall forces", wall.count,
-           AddImpulse<Lucy, decltype(box)>{
-               c, list, smoothing, box, static_cast<Real>(step.dt), static_cast<Real>(step.theta),
-               step.velocity, step.explicit_velocity, step.yield, wall.id.span(), impulse_.span()});
+    const AddImpulse<Lucy, decltype(box)> body{c,
+                                               list,
+                                               smoothing,
+                                               box,
+                                               static_cast<Real>(step.dt),
+                                               static_cast<Real>(step.theta),
+                                               step.velocity,
+                                               step.explicit_velocity,
+                                               step.yield,
+                                               wall.id.span(),
+                                               impulse_.span()};
+    launch(context_, "wall forces", wall.count, if_converged(step.solve, body));
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }
 
 WallLoad WallForces::load(std::size_t body) {
   const auto n = static_cast<Index>(impulse_.size());
-  terms_.resize(n);
   const auto total = [&](int term) {
-    launch(context_, "wall impulse term", n,
-           ImpulseTerm{impulse_.span(), body_.span(), static_cast<int>(body), term, terms_.span()});
-    return sum(context_, terms_.span());
+    return slagflow::total(context_, scratch_, n,
+                           ImpulseTerm{impulse_.span(), body_.span(), static_cast<int>(body), term});
   };
   WallLoad load;
   Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque, &load.viscous_torque};
@@ -130,10 +131,8 @@ WallLoad WallForces::load(std::size_t body) {
 }
 
 double WallForces::work() {
-  const auto n = static_cast<Index>(impulse_.size());
-  terms_.resize(n);
-  launch(context_, "wall work", n, ImpulseTerm{impulse_.span(), body_.span(), -1, work_term, terms_.span()});
-  return sum(context_, terms_.span());
+  return total(context_, scratch_, static_cast<Index>(impulse_.size()),
+               ImpulseTerm{impulse_.span(), body_.span(), -1, work_term});
 }
 
 }  // namespace slagflow

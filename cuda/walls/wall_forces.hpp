@@ -2,8 +2,10 @@
 // momentum of fluid and walls together is kept.
 #pragma once
 
+#include "diagnostics.hpp"
 #include "exact_yield.hpp"
 #include "simulation.hpp"
+#include "solvers/solve_state.hpp"
 
 namespace slagflow {
 
@@ -12,6 +14,7 @@ struct WallForceStep {
   double dt, theta;
   Span<const Quad> velocity, explicit_velocity;
   WallYield yield;
+  const SolveState* solve = nullptr;  // if given: nothing is added unless it has converged
 };
 
 class WallForces {
@@ -41,7 +44,7 @@ class WallForces {
   Context& context_;
   Buffer<Impulse> impulse_;
   Buffer<std::uint8_t> body_;
-  Buffer<double> terms_;
+  DiagnosticScratch scratch_;
 };
 
 }  // namespace slagflow

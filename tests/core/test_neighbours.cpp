@@ -236,5 +236,15 @@ TEST_F(Neighbours, ListsCanBeBuiltAgainSmallerAndLarger) {
   }
 }
 
+TEST(ListView, RowsBeginBeyond32Bits) {
+  constexpr Offset far = 10000000000;
+  const std::vector<Offset> slice{0, far};
+  const std::vector<Index> length(2 * slice_width, 100);
+  const ListView list{host_span(slice), host_span(length), {}};
+  EXPECT_EQ(list.row(slice_width), far);
+  EXPECT_EQ(list.row(2 * slice_width - 1) + 99 * ListView::stride(),
+            far + slice_width - 1 + 99 * slice_width);
+}
+
 }  // namespace
 }  // namespace slagflow

@@ -46,8 +46,8 @@ class Primitives : public testing::Test {
     return sum(context_, buffer.span());
   }
 
-  double largest(const std::vector<Real>& values, double floor) {
-    Buffer<Real> buffer(context_, "values");
+  double largest(const std::vector<double>& values, double floor) {
+    Buffer<double> buffer(context_, "values");
     buffer.upload(values);
     return maximum(context_, buffer.span(), floor);
   }
@@ -95,6 +95,12 @@ TEST_F(Primitives, ScanMatchesPartialSums) {
   EXPECT_EQ(scanned(counts), wanted);
 }
 
+// A list of 10^8 particles with 100 neighbours each has 10^10 entries.
+TEST_F(Primitives, ScanGoesBeyond32Bits) {
+  const std::vector<Offset> places = scanned(std::vector<Offset>(5000, 2000000));
+  EXPECT_EQ(places.back(), Offset(10000000000));
+}
+
 TEST_F(Primitives, ScanOfNothingIsZero) { EXPECT_EQ(scanned({}), std::vector<Offset>{0}); }
 
 std::vector<double> numbers_of_all_sizes(std::size_t n) {
@@ -132,7 +138,7 @@ TEST_F(Primitives, SumOfNothingIsZeroAndOfNotANumberIsNotANumber) {
 
 TEST_F(Primitives, MaximumFindsTheLargestAnywhere) {
   for (std::size_t at : {std::size_t(0), std::size_t(4095), std::size_t(4096), std::size_t(9999)}) {
-    std::vector<Real> values(10000, Real(-3));
+    std::vector<double> values(10000, -3);
     values[at] = 2;
     EXPECT_EQ(largest(values, -10), 2) << at;
   }
@@ -140,18 +146,19 @@ TEST_F(Primitives, MaximumFindsTheLargestAnywhere) {
 
 TEST_F(Primitives, MaximumHasAFloor) {
   EXPECT_EQ(largest({}, -7), -7);
-  EXPECT_EQ(largest({Real(-3)}, -1), -1);
-  EXPECT_EQ(largest({Real(-3)}, -5), -3);
+  EXPECT_EQ(largest({-3}, -1), -1);
+  EXPECT_EQ(largest({-3}, -5), -3);
 }
 
 TEST_F(Primitives, MaximumKeepsNotANumberWhereverItStands) {
   for (std::size_t at :
        {std::size_t(0), std::size_t(1), std::size_t(4095), std::size_t(4096), std::size_t(9999)}) {
-    std::vector<Real> values(10000, Real(1));
-    values[at] = std::numeric_limits<Real>::quiet_NaN();
+    std::vector<double> values(10000, 1);
+    values[at] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(std::isnan(largest(values, 0))) << at;
   }
-  EXPECT_EQ(largest({1, std::numeric_limits<Real>::infinity()}, 0), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(largest({1, std::numeric_limits<double>::infinity()}, 0),
+            std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ TEST(CaseCheck, NumbersFollowTheirFormulas) {
   EXPECT_NEAR(c.fluids[0].bingham, 5 * 0.05 / (0.5 * speed), 1e-9);
   EXPECT_NEAR(c.fluids[0].dam, 965 * 0.05 * std::sqrt(9.81 * 0.02) / 0.5, 1e-9);
   EXPECT_NEAR(c.mach, speed / 7, 1e-12);
-  EXPECT_NEAR(c.memory, 100 * 2800.0 + 30 * 500.0, 1e-6);
+  EXPECT_NEAR(c.memory, 100 * 2000.0 + 30 * 300.0, 1e-6);
 }
 
 TEST(CaseCheck, TimeStepNamesItsLimit) {

@@ -1,0 +1,15 @@
+// What a step leaves on the device for the host, which reads it all at once.
+#pragma once
+
+#include "solvers/solve_state.hpp"
+
+namespace slagflow {
+
+struct StepRecord {
+  SolveState solve;
+  double dissipation = 0;           // power of viscosity at the start of the step [W]
+  double displacement_squared = 0;  // largest since the lists were built [m^2]
+  double approach = 0;              // largest of two cells beyond the skin of the lists [m]
+};
+
+}  // namespace slagflow
