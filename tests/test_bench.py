@@ -1,6 +1,7 @@
 """Tests of scripts/bench. With a test's name as argument only that one is run."""
 
 import json
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -8,6 +9,9 @@ import unittest
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(PROJECT / "scripts"))
+from benching import device_model  # noqa: E402
 
 
 def compare(before, after):
@@ -47,6 +51,56 @@ class Bench(unittest.TestCase):
                 self.assertEqual(done.returncode, 1)
                 self.assertIn("bad.json", done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
+
+
+def bench(*arguments):
+    return subprocess.run([sys.executable, PROJECT / "scripts" / "bench", *arguments], capture_output=True, text=True)
+
+
+class Model(unittest.TestCase):
+    def test_it_says_that_it_is_a_model_and_predicts_for_each_gpu(self):
+        done = bench("--model")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(done.stdout.startswith("Model, not measured"))
+        table = [line for line in done.stdout.splitlines() if line.startswith("|")]
+        self.assertEqual(len(table), 2 + len(device_model.SIZES))
+        for gpu in device_model.GPUS:
+            self.assertIn(gpu, table[0])
+
+    def test_a_launch_takes_its_slowest_part_and_a_wait_is_added(self):
+        kernel = {"launches": 2, "warp_instructions": 0, "fp64": 0, "sectors": 0, "memory_sectors": 1000}
+        counts = {"fluid": 100, "waits_per_step": 1, "kernels": [kernel]}
+        memory = 1000 * 1000 * 32 / 900e9 / device_model.ATTAINED
+        self.assertAlmostEqual(device_model.step_time("V100", 100000, counts), device_model.WAIT + memory)
+        smallest = device_model.WAIT + 2 * device_model.LAUNCH
+        self.assertAlmostEqual(device_model.step_time("V100", 100, counts), smallest)
+
+    def test_measured_stands_beside_predicted(self):
+        counts = device_model.read_counts()
+        lines = device_model.compare_measured("NVIDIA A100-SXM4-40GB", {
+            "step/spacing_um:1000/threads:1": {"seconds": [0.003, 0.002, 0.004], "particles": [100000]}}, counts)
+        self.assertEqual(lines[1].split()[:2], ["100000", "3.000"])
+        self.assertAlmostEqual(float(lines[1].split()[2]), 1e3 * device_model.step_time("A100", 100000, counts), 2)
+        self.assertIn("no model of", device_model.compare_measured("NVIDIA T4", {}, counts)[0])
+
+    def test_without_a_gpu_device_says_so(self):
+        if shutil.which("nvidia-smi"):
+            self.skipTest("there may be a GPU")
+        done = bench("--device")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("nvidia-smi finds none", done.stderr)
+
+    def test_profile_is_added_up_by_kernel(self):
+        part = """
+kernel _Zk
+  launches 2  threads 64  instructions 640  fp32 ops 6  fp64 ops 7  host seconds 0.1
+  global loads  9999 bytes, 30 warp requests, 300 sectors (67.0% of the sector bytes requested)
+  global stores 64 bytes, 2 warp requests, 4 sectors (100.0%)
+  warp instructions 20, 32.0 of 32 lanes active on average
+        200 sectors, 17.61 per request,  66.0%  ld.global.v4.f32 {%f1, %f2, %f3, %f4}, [%rd1]  [a.hpp:1]
+"""
+        # Of 200 gathered sectors two arrays of 64 times 16 bytes come from memory.
+        self.assertEqual(device_model.parse_profile(part + part)["_Zk"], [4, 128, 40, 14, 608, 336])
 
 
 if __name__ == "__main__":

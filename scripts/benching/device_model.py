@@ -1,0 +1,137 @@
+"""A model of a step on a GPU, from counts: what the kernels of a step load, store and execute, and what GPUs are published
+to give. It has never been compared with a GPU; scripts/bench --device prints measured beside predicted.
+
+A launch takes as long as the slowest of four things, but no less than one launch after another takes: bytes from
+memory (all that is read one after another, and each gathered array once), sectors through the first cache, warp
+instructions (of PTX, not of machine code), and double precision. A step is the sum over its launches, and for each wait
+of the host the time until the device has work again."""
+
+import json
+import re
+import subprocess
+import tempfile
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parent.parent.parent
+COUNTS = TOP / "tests" / "device_counts.json"
+RUNTIME = TOP / ".." / "shared" / "cuda-on-cpu" / "run"
+CASE = "dam_discharge_quick.toml"
+FIRST, LAST = 0.02, 0.04  # [s] the steps between are counted
+
+# Published: memory [B/s], multiprocessors, clock [Hz], first cache [sectors of 32 B per clock and multiprocessor],
+# double precision [flop/s]. A K40 loads through its second cache.
+GPUS = {
+    "K40": (288e9, 15, 0.745e9, 2, 1.43e12),
+    "V100": (900e9, 80, 1.53e9, 4, 7.8e12),
+    "A100": (1555e9, 108, 1.41e9, 4, 9.7e12),
+    "H100": (3350e9, 132, 1.98e9, 4, 34e12),
+}
+# Assumed: the share of the published rates that a kernel gets, the time from one launch to the next and that of a wait.
+ATTAINED = 0.75
+LAUNCH, WAIT = 2.5e-6, 15e-6  # [s]
+GATHERED_ARRAYS = 2           # of 16-byte elements, in a kernel that gathers
+SIZES = (12500, 102000, 1000000, 10000000)
+
+
+def parse_profile(text):
+    """Totals by kernel since the start: launches, threads, warp instructions, fp64, sectors, streamed sectors."""
+    kernels = {}
+    for part in text.split("\nkernel ")[1:]:
+        def number(pattern):
+            found = re.search(pattern, part)
+            return int(found[1]) if found else 0
+        loads, stores = number(r"global loads .* (\d+) sectors"), number(r"global stores .* (\d+) sectors")
+        wide = sum(int(n) for n in re.findall(r"(\d+) sectors,[^\n]*ld\.global\S*\.v4\.f32", part))
+        threads = number(r"threads (\d+)")
+        gathered = min(wide, GATHERED_ARRAYS * threads * 16 // 32)
+        totals = (number(r"launches (\d+)"), threads, number(r"warp instructions (\d+)"), number(r"fp64 ops (\d+)"),
+                  loads + stores, loads - wide + gathered + stores)
+        name = part.splitlines()[0].strip()
+        kernels[name] = [a + b for a, b in zip(kernels.get(name, [0] * 6), totals)]
+    return kernels
+
+
+def profiled_run(program, until, folder):
+    profile = Path(folder) / f"profile_{until}.txt"
+    target = Path(folder) / f"run_{until}"
+    command = ["env", f"CUDA_ON_CPU_PROFILE={profile}", RUNTIME, program, "run", TOP / "cases" / CASE, "-o", target,
+               "--until", until, "--quiet", "--set", "output.history_interval=1", "--set", "output.interval=1"]
+    subprocess.run([str(word) for word in command], check=True, capture_output=True)
+    return parse_profile("\n" + profile.read_text()), json.loads((target / "summary.json").read_text())
+
+
+def count(program):
+    """Runs the case twice and writes what the steps between did, per step, to COUNTS."""
+    with tempfile.TemporaryDirectory() as folder:
+        (before, first), (after, last) = (profiled_run(program, until, folder) for until in (FIRST, LAST))
+    steps = last["steps"] - first["steps"]
+    names = ("launches", "threads", "warp_instructions", "fp64", "sectors", "memory_sectors")
+    kernels = []
+    for name, totals in after.items():
+        done = [(b - a) / steps for a, b in zip(before.get(name, [0] * 6), totals)]
+        if done[0] > 0:
+            kernels.append({"kernel": name, **{key: round(value, 3) for key, value in zip(names, done)}})
+    readable = subprocess.run(["c++filt"], input="\n".join(k["kernel"] for k in kernels), capture_output=True, text=True,
+                              check=True).stdout.splitlines()
+    for kernel, name in zip(kernels, readable):
+        name = re.sub(r"slagflow::|\(anonymous namespace\)::|void |cub::\w+::(\w+::)*", "", name)
+        kernel["kernel"] = name.replace(" >", ">").split("(")[0][:100]
+    iterations = [s["viscous"]["iterations_mean"] * s["steps"] for s in (first, last)]
+    result = {"case": CASE, "commit": last["commit"], "steps": [first["steps"], last["steps"]],
+              "fluid": last["particles"]["fluid"], "wall": last["particles"]["wall"],
+              "iterations_per_step": round((iterations[1] - iterations[0]) / steps, 3),
+              "rebuilds_per_step": round((last["list_builds"] - first["list_builds"]) / steps, 4),
+              "waits_per_step": round((last["device_waits"] - first["device_waits"]) / steps, 3),
+              "kernels": sorted(kernels, key=lambda k: -k["sectors"])}
+    COUNTS.write_text(json.dumps(result, indent=1) + "\n")
+
+
+def read_counts():
+    return json.loads(COUNTS.read_text())
+
+
+def step_time(gpu, particles, counts):
+    """Predicted [s]; counts grow with the particles, launches and waits do not."""
+    bandwidth, processors, clock, sectors, double = GPUS[gpu]
+    scale = particles / counts["fluid"]
+    time = counts["waits_per_step"] * WAIT
+    for kernel in counts["kernels"]:
+        busy = max(32 * kernel["memory_sectors"] / bandwidth, kernel["sectors"] / (sectors * processors * clock),
+                   kernel["warp_instructions"] / (4 * processors * clock), kernel["fp64"] / double) * scale / ATTAINED
+        time += max(busy, kernel["launches"] * LAUNCH)
+    return time
+
+
+def totals(counts):
+    """Per step: launches, waits; per fluid particle and step: bytes loaded and stored, warp instructions."""
+    kernels = counts["kernels"]
+    return (sum(k["launches"] for k in kernels), counts["waits_per_step"],
+            sum(32 * k["sectors"] for k in kernels) / counts["fluid"],
+            sum(32 * k["memory_sectors"] for k in kernels) / counts["fluid"],
+            sum(32 * k["warp_instructions"] for k in kernels) / counts["fluid"])
+
+
+def print_table(counts):
+    launches, waits, through, memory, instructions = totals(counts)
+    print(f"Model, not measured. Counted in steps {counts['steps'][0]} to {counts['steps'][1]} of {counts['case']}: "
+          f"{launches:.1f} launches and {waits:.2f} waits a step,\n{through:.0f} B through the first cache, "
+          f"{memory:.0f} B from memory and {instructions:.0f} thread instructions a fluid particle and step, "
+          f"{counts['iterations_per_step']:.1f} iterations.\n")
+    print("| fluid particles | " + " | ".join(GPUS) + " |\n|---|" + "---|" * len(GPUS))
+    for size in SIZES:
+        cells = [f"{1e3 * (t := step_time(gpu, size, counts)):.3g} ms, {size / t:.2g} /s" for gpu in GPUS]
+        print(f"| {size} | " + " | ".join(cells) + " |")
+
+
+def compare_measured(device, benchmarks, counts):
+    """Lines of measured beside predicted times of whole steps; `device`: the GPU's name."""
+    gpu = next((name for name in GPUS if name in device), None)
+    if gpu is None:
+        return [f"no model of {device}; there is one of {', '.join(GPUS)}"]
+    lines = [f"{device}: {'fluid particles':>16} {'measured ms':>12} {'predicted ms':>13}"]
+    for name, record in benchmarks.items():
+        if name.startswith("step/") and "particles" in record:
+            particles, seconds = record["particles"][0], sorted(record["seconds"])[len(record["seconds"]) // 2]
+            lines.append(f"{'':{len(device)}}  {particles:>16.0f} {1e3 * seconds:>12.3f} "
+                         f"{1e3 * step_time(gpu, particles, counts):>13.3f}")
+    return lines
