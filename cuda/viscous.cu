@@ -229,6 +229,7 @@ void ViscousStep::forget(Buffer<Quad>& increment) {
 
 SolveResult ViscousStep::go_on(const LinearSystem& matrix, const RowCells& rows, const SolveState& now,
                                double energy, Buffer<Quad>& increment) {
+  if (now.converged) return {now.iterations, now.residual, now.right_hand_side, true};
   const SolveLimits limits{now.limit, energy, numerics_.max_iterations, numerics_.relaxation, now.residual};
   SolveResult result{now.iterations, now.residual, now.right_hand_side, false};
   switch (numerics_.solver) {

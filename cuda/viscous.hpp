@@ -50,6 +50,7 @@ class ViscousStep {
   bool is_explicit() const { return numerics_.viscous_step == ViscousStepping::explicit_step; }
   LinearSystem system(const PairContext&) const;
   double wanted_residual(const Step&, Index count) const;
+  double wanted_gap(const Step&, Real spacing) const;
   int most_by_diagonal(int patience) const;
   void begin_solve(const LinearSystem&, const Step&, Buffer<Quad>& increment);
   SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,

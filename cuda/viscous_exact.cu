@@ -63,6 +63,12 @@ struct BeginInnerSolve {
 
 }  // namespace
 
+// The gap times the augmentation is a stress.
+double ViscousStep::wanted_gap(const Step& step, Real spacing) const {
+  return tolerance_share * numerics_.tolerance * step.kick /
+         (relative_augmentation() * static_cast<double>(spacing));
+}
+
 SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairContext& c, const RowCells& rows,
                                      const Step& step, Buffer<Quad>& increment) {
   // Many solves with one matrix, each of few iterations: the coarse levels pay later than in a single solve.
@@ -72,12 +78,9 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
   launch_reduction<AddUp>(context_, "start", n, StartExact{matrix, predicted_.span(), base_.span()},
                           KeepRightHandSide{work_.state()});
   // The residual against the stresses of the last iteration bounds the velocity error as in other solves
-  // (A >= m). The gap times the augmentation is a stress; a gap below a thousandth of the shear rate is
-  // rounding.
+  // (A >= m). A gap below a thousandth of the shear rate is rounding.
   const double wanted = tolerance_share * wanted_residual(step, n);
-  const double spacing = static_cast<double>(c.flow.spacing);
-  const double wanted_gap =
-      tolerance_share * numerics_.tolerance * step.kick / (relative_augmentation() * spacing);
+  const double gap_wanted = wanted_gap(step, c.flow.spacing);
   SolveResult result;
   bool rates_agree = false;
   double gap = 0, change = 0;
@@ -93,15 +96,13 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
     result.residual = now.residual, result.right_hand_side = now.right_hand_side;
     result.converged = now.iterations == 0 && now.residual <= now.enough;
     if (result.converged || last) break;
-    const SolveResult inner = now.converged
-                                  ? SolveResult{now.iterations, now.residual, now.right_hand_side, true}
-                                  : go_on(matrix, rows, now, square(now.limit) / step.mass, increment);
+    const SolveResult inner = go_on(matrix, rows, now, square(now.limit) / step.mass, increment);
     result.iterations += inner.iterations, result.residual = inner.residual;
     if (!inner.converged && !(inner.residual <= wanted)) break;
     add_increment(increment);
     const ExactYield::Rates rates = yield_.update(c, velocity_.span());
     gap += rates.gap, change += rates.change;
-    rates_agree = rates.gap <= wanted_gap + 1e-3 * rates.shear;
+    rates_agree = rates.gap <= gap_wanted + 1e-3 * rates.shear;
     ++result.yield_iterations;
   }
   yield_.balance(gap, change);
