@@ -6,14 +6,18 @@
 
 namespace slagflow {
 
+struct ShiftStep {
+  Real amount, dt;                    // A of shift_particles, [s]
+  Span<const Real> shear_rate;        // [1/s]
+  const SolveState* solve = nullptr;  // nothing moves unless it has converged; without it all do
+};
+
 // Moves each particle down the gradient of the concentration of particles, walls included,
 //   dx_i = -A h^2 min(gamma_i dt, 0.1) S_i sum_j V_j F_ij x_ij
 // (S. J. Lind et al., J. Comput. Phys. 231 (2012) 1499, with the shear rate for the pace: nothing moves in a
 // plug, or in a rigid motion). S_i is 0 at and next to a free surface, where T_i = sum_j V_j |F_ij| r^2 / d
 // falls below 0.92, and 1 from T_i = 0.97 on; inside T_i is 0.99. Velocities stay as they are.
-// `amount`: A; `dt` [s]; `shear_rate` [1/s]; `position` [m], which the places of the pairs still lag. Idle
-// unless the solve has converged; without a solve never.
-void shift_particles(Context&, const PairContext&, Real amount, Real dt, Span<const Real> shear_rate,
-                     Span<Vec3d> position, const SolveState* solve = nullptr);
+// `position` [m]: the places of the pairs still lag it.
+void shift_particles(Context&, const PairContext&, const ShiftStep&, Span<Vec3d> position);
 
 }  // namespace slagflow

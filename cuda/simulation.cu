@@ -292,8 +292,10 @@ void Simulation::State::add_wall_forces() {
 void Simulation::State::shift() {
   if (setup.numerics.shifting <= 0) return;
   Section timer(context, "shifting");
-  shift_particles(context, pairs(), static_cast<Real>(setup.numerics.shifting), static_cast<Real>(dt),
-                  fluid.shear_rate.span(), fluid.position.span(), &viscous.record()->solve);
+  shift_particles(context, pairs(),
+                  {static_cast<Real>(setup.numerics.shifting), static_cast<Real>(dt), fluid.shear_rate.span(),
+                   &viscous.record()->solve},
+                  fluid.position.span());
 }
 
 void Simulation::State::look() {

@@ -43,8 +43,9 @@ std::vector<Vec3d> shifts(Scene& scene, Rate rate) {
   Buffer<Real> shear_rate(scene.context, "rates");
   shear_rate.upload(rates);
   const std::vector<Vec3d> before = scene.by_id(Span<const Vec3d>(scene.fluid.position.span()));
-  shift_particles(scene.context, scene.pairs(), static_cast<Real>(amount), static_cast<Real>(dt),
-                  shear_rate.span(), scene.fluid.position.span());
+  shift_particles(scene.context, scene.pairs(),
+                  {static_cast<Real>(amount), static_cast<Real>(dt), shear_rate.span()},
+                  scene.fluid.position.span());
   std::vector<Vec3d> after = scene.by_id(Span<const Vec3d>(scene.fluid.position.span()));
   for (std::size_t i = 0; i < n; ++i) after[i] -= before[i];
   return after;
