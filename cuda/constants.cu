@@ -119,8 +119,18 @@ double viscosity_correction(const SimulationSetup& s) {
   return 1 / lattice_viscosity(s.numerics.viscous_operator, s.support_ratio, s.dimensions);
 }
 
-double acoustic_time_step(const SimulationSetup& s) {
-  const double dt = s.numerics.courant * 0.5 * s.support_ratio * s.spacing / s.numerics.sound_speed;
+double capillary_time_step(const SimulationSetup& s) {
+  const double pi = 3.14159265358979324;
+  double dt = std::numeric_limits<double>::infinity();
+  for (const FluidSetup& f : s.fluids)
+    if (f.surface_tension > 0)
+      dt = smaller(dt, std::sqrt(f.rest_density * std::pow(s.spacing, 3) / (2 * pi * f.surface_tension)));
+  return s.numerics.courant * dt;
+}
+
+double stable_time_step(const SimulationSetup& s) {
+  const double acoustic = s.numerics.courant * 0.5 * s.support_ratio * s.spacing / s.numerics.sound_speed;
+  const double dt = smaller(acoustic, capillary_time_step(s));
   return s.numerics.max_time_step > 0 ? smaller(dt, s.numerics.max_time_step) : dt;
 }
 

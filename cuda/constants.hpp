@@ -24,7 +24,11 @@ PeriodicBox periodic_box(const SimulationSetup&);
 // C of equation (7): as given, or what takes out the bias of the operator, 1 / lattice_viscosity().
 double viscosity_correction(const SimulationSetup&);
 
-// dt <= courant (h/2)/c0, and max_time_step when there is one [s].
-double acoustic_time_step(const SimulationSetup&);
+// courant sqrt(rho dx^3/(2 pi sigma)), of the shortest capillary wave [s]; infinite without surface tension.
+// J. U. Brackbill et al., J. Comput. Phys. 100 (1992) 335.
+double capillary_time_step(const SimulationSetup&);
+
+// dt <= courant (h/2)/c0, capillary_time_step(), and max_time_step when there is one [s].
+double stable_time_step(const SimulationSetup&);
 
 }  // namespace slagflow

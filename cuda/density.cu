@@ -19,7 +19,9 @@ struct Centre {
 };
 
 // Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
-template <class Smoothing, class Box>
+// `capillary`: with surface tension, whose equilibrium is not to be diffused away any more than that of
+// gravity.
+template <bool capillary, class Smoothing, class Box>
 struct DensityAndShear {
   PairContext c;
   Smoothing smoothing;
@@ -33,7 +35,7 @@ struct DensityAndShear {
     const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w,
                         (rest_density / c.flow.sound_speed_squared) * c.flow.gravity};
     PairSums sums;
-    add_fluid(i, centre, sums);
+    add_fluid(i, centre, rest_density / c.flow.sound_speed_squared, sums);
     add_walls(i, centre, sums);
     const Real rate =
         (rest_density + motion.w) * total(sums.divergence) + c.flow.diffusion * total(sums.diffusion);
@@ -41,7 +43,8 @@ struct DensityAndShear {
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
   }
 
-  HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
+  // `slope`: gradient of the density at rest over the acceleration.
+  HOST_DEVICE void add_fluid(Index i, const Centre& centre, Real slope, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
                    hydrostatic = in_lanes(centre.hydrostatic);
     const Offset first = c.fluid_list.row(i);
@@ -57,7 +60,12 @@ struct DensityAndShear {
       const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
       const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
       sums.divergence += share;
-      sums.diffusion -= weight * ((other.w - centre.excess) + dot(hydrostatic, d));
+      Lanes difference = (other.w - centre.excess) + dot(hydrostatic, d);
+      if constexpr (capillary) {
+        const LaneVec3 both = in_lanes(xyz(c.capillary[i])) + xyz(gather(c.capillary, j));
+        difference += (Real(0.5) * slope) * dot(both, d);
+      }
+      sums.diffusion -= weight * difference;
       sums.shear -= share * approach / (r2 + c.flow.softening);
     }
   }
@@ -116,12 +124,13 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
                     Real dt) {
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
   scratch.resize(fluid.count);
-  auto sweep = [&](auto box) {
-    launch(
-        context, "density and shear rate", fluid.count,
-        DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, dt, scratch.span(), fluid.shear_rate.span()});
+  auto sweep = [&](auto box, auto capillary) {
+    launch(context, "density and shear rate", fluid.count,
+           DensityAndShear<capillary.value, Lucy, decltype(box)>{c, smoothing, box, dt, scratch.span(),
+                                                                 fluid.shear_rate.span()});
   };
-  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+  auto choose = [&](auto capillary) { c.box.any() ? sweep(c.box, capillary) : sweep(OpenBox{}, capillary); };
+  c.capillary.size > 0 ? choose(std::true_type{}) : choose(std::false_type{});
   launch(
       context, "state", fluid.count,
       StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),

@@ -16,12 +16,14 @@ struct PairContext {
   Span<const FluidConstants> fluids;
   FlowConstants flow;
   PeriodicBox box;
+  Span<const Quad> capillary{};  // xyz: acceleration by surface tension [m/s^2]; empty without
 };
 
 // Advances the density by dt with
 //   d rho_i/dt = rho_i sum_j V_j (v_i - v_j).grad W_ij
-//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho_i) - rho0 g.(x_j - x_i)/c0^2]
-// (diffusion: G. Fourtakas et al., Comput. Fluids 190 (2019) 346), sets the pressure by the equation of state
+//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho_i) - rho0 (g + a_ij).(x_j - x_i)/c0^2]
+// (diffusion: G. Fourtakas et al., Comput. Fluids 190 (2019) 346; a_ij: mean acceleration of the pair by
+// surface tension), sets the pressure by the equation of state
 //   p = max(c0^2 (rho - rho0), -p_t)
 // and the viscosity from the shear rate
 //   gamma_i^2 = C (d+2) sum_j V_j |F_ij| ((v_i - v_j).x_ij)^2 / r^2,

@@ -51,8 +51,9 @@ struct PredictAndAssemble {
       }
       store_lanes(&out.weight[at], weight);
     }
-    walls(i, x, own, c.flow.gravity + c.flow.body_acceleration + total(acceleration),
-          Vec3{own.w, own.w, own.w} + total(diagonal));
+    Vec3 body = c.flow.gravity + c.flow.body_acceleration;
+    if (c.capillary.size > 0) body += xyz(c.capillary[i]);
+    walls(i, x, own, body + total(acceleration), Vec3{own.w, own.w, own.w} + total(diagonal));
   }
 
   HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {

@@ -16,7 +16,8 @@ struct PredictorOutput {
   Span<Quad> right_hand_side;  // xyz: m u* + wall part [kg m/s]
 };
 
-//   u*_i = v_i + dt (g - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij) F_ij x_ij)
+//   u*_i = v_i + dt (g + a_i - sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij) F_ij x_ij)
+// with the acceleration a_i by surface tension and
 //   pairing_ij = eps [(W(r)/W(dx))^4 - 1]_+ (|p_i|/rho_i^2 + |p_j|/rho_j^2)
 // and, for the radial operator, with the mean eta_ij, harmonic between two fluids,
 //   w_ij = theta dt C 2(d+2) eta_ij V_i V_j |F_ij| / r^2

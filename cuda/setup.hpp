@@ -16,6 +16,7 @@ struct FluidSetup {
   std::string name;
   double rest_density = 0;  // [kg/m^3]
   Rheology rheology;
+  double surface_tension = 0;  // [N/m]
 };
 
 // One entry per fluid particle in each array.
@@ -52,7 +53,8 @@ struct RigidVelocity {
 struct WallBody {
   std::string name;
   WallSlip slip = WallSlip::no_slip;
-  double slip_length = 0;  // [m], of partial slip
+  double slip_length = 0;     // [m], of partial slip
+  double contact_angle = 90;  // [degrees], within a fluid with surface tension
   // Of the material, along the surface; the shape stays where it is, as in belts and turning cylinders.
   RigidVelocity surface{};
   WallMotion motion{};

@@ -48,6 +48,7 @@ Simulation::State::State(const SimulationSetup& s)
       wall_to_fluid(context, "fluid neighbours of walls"),
       list_age(context),
       wall_forces(context),
+      surface_tension(context, setup),
       list_places(context, "places of the list"),
       wall_list_places(context, "wall places of the list"),
       scratch(context, "scratch"),
@@ -56,7 +57,7 @@ Simulation::State::State(const SimulationSetup& s)
       watch(context, setup),
       planes(s) {
   departed.resize(s.fluids.size());
-  dt = full_dt = acoustic_time_step(setup);
+  dt = full_dt = stable_time_step(setup);
   upload_fluid();
   upload_walls();
   planes.begin(context, fluid, diagnostics);
@@ -173,7 +174,9 @@ bool Simulation::State::lists_hold() {
 }
 
 PairContext Simulation::State::pairs() const {
-  return {fluid_list.view(), wall_list.view(), view(fluid), view(wall), fluids.span(), flow, box};
+  PairContext c{fluid_list.view(), wall_list.view(), view(fluid), view(wall), fluids.span(), flow, box};
+  c.capillary = surface_tension.acceleration();
+  return c;
 }
 
 // The velocity that gravity adds in a step, against which the error of the solve is measured. Without gravity
@@ -245,8 +248,9 @@ void Simulation::State::solve(const StepRecord& begun) {
 void Simulation::State::launch_move() {
   add_wall_forces();
   shift();
-  Section timer(context, "advance");
   StepRecord* record = viscous.record();
+  surface_tension.launch_power(fluid, viscous.velocity(), record);
+  Section timer(context, "advance");
   advance_particles(context, fluid, {viscous.velocity(), dt}, list_places, record);
   if (!walls.any())
     list_age.launch_approach(ordering.fluid_sources(fluid), list_places.span(),
@@ -286,7 +290,7 @@ void Simulation::State::add_wall_forces() {
   Section timer(context, "wall forces");
   wall_forces.add(viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
                   {dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
-                   viscous.wall_yield(), &viscous.record()->solve});
+                   viscous.wall_yield(), surface_tension.view(), &viscous.record()->solve});
 }
 
 void Simulation::State::shift() {
@@ -303,7 +307,7 @@ void Simulation::State::look() {
   std::int64_t left = 0;
   for (const auto& by_face : departed)
     for (const std::int64_t count : by_face) left += count;
-  const double work = knows_wall_forces() ? wall_forces.work() : 0;
+  const double work = (knows_wall_forces() ? wall_forces.work() : 0) + capillary_work;
   watch.look(fluid, fluids.span(), {time, dt, dissipated, work, steps, left}, diagnostics);
 }
 
@@ -344,12 +348,13 @@ void Simulation::step() {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
     const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics), s.walls.largest_speed());
-    s.full_dt = smaller(acoustic_time_step(s.setup),
-                        0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
+    s.full_dt =
+        smaller(stable_time_step(s.setup), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
   s.choose_time_step();
   s.walls.place(s.time, s.dt, s.wall);  // with the velocities of this step
   if (s.fluid.count > 0) {
+    s.surface_tension.update(s.pairs(), s.wall.id.span());
     {
       Section timer(s.context, "density and shear rate");
       update_density(s.context, s.pairs(), s.fluid, s.scratch, static_cast<Real>(s.dt - s.density_ahead));
@@ -364,6 +369,7 @@ void Simulation::step() {
     // What the last step dissipated: the viscous forces acted on the velocities that it ended with.
     if (s.steps > 0) s.dissipated += last_dt * s.last->dissipation;
     s.displacement = std::sqrt(s.last->displacement_squared);
+    s.capillary_work += s.dt * s.last->capillary_power;
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
   s.time += s.dt;

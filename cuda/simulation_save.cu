@@ -12,7 +12,7 @@ namespace {
 
 // Numbers that are not particle arrays.
 struct SavedNumbers {
-  double time, dt, full_dt, density_ahead, displacement, dissipated, list_time;
+  double time, dt, full_dt, density_ahead, displacement, dissipated, capillary_work, list_time;
   std::int64_t steps, builds;
   std::int64_t solver_steps, solver_iterations, solver_retried, yield_iterations, yield_unconverged;
   double worst_residual, residual, velocity_error, lowest_energy;
@@ -87,7 +87,8 @@ void require_possible(const SavedNumbers& v) {
   const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
                         v.full_dt > 0 && std::isfinite(v.full_dt) && std::isfinite(v.density_ahead) &&
                         v.list_time >= 0 && v.list_time <= v.time && std::isfinite(v.displacement) &&
-                        std::isfinite(v.dissipated) && v.steps >= 0 && v.builds >= 0 && v.solver_steps >= 0;
+                        std::isfinite(v.dissipated) && std::isfinite(v.capillary_work) && v.steps >= 0 &&
+                        v.builds >= 0 && v.solver_steps >= 0;
   if (!possible) throw Error("checkpoint: its numbers are not those of a run");
 }
 
@@ -122,6 +123,7 @@ SavedState Simulation::save() const {
                                      s.density_ahead,
                                      s.displacement,
                                      s.dissipated,
+                                     s.capillary_work,
                                      s.list_time,
                                      s.steps,
                                      s.builds,
@@ -153,7 +155,8 @@ void Simulation::restore(const SavedState& saved) {
   const SavedNumbers& v = numbers[0];
   require_possible(v);
   s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.density_ahead = v.density_ahead;
-  s.displacement = v.displacement, s.dissipated = v.dissipated, s.list_time = v.list_time;
+  s.displacement = v.displacement, s.dissipated = v.dissipated;
+  s.capillary_work = v.capillary_work, s.list_time = v.list_time;
   s.restore_walls();
   const Offset walls = s.wall.pressure.size(), impulses = s.wall_forces.impulses().size();
   const std::size_t planes = s.planes.records.size();

@@ -11,6 +11,7 @@
 #include "neighbours.hpp"
 #include "ordering.hpp"
 #include "simulation.hpp"
+#include "surface_tension.hpp"
 #include "viscous.hpp"
 #include "walls/moving_walls.hpp"
 #include "walls/wall_forces.hpp"
@@ -34,6 +35,7 @@ struct Simulation::State {
   NeighbourList fluid_list, wall_list, wall_to_fluid;
   ListAge list_age;
   WallForces wall_forces;
+  SurfaceTension surface_tension;
   Buffer<Quad> list_places, wall_list_places;  // of the fluid and of moving walls when the lists were built
   double list_time = 0;                        // [s], of those places
   Buffer<Real> scratch;
@@ -45,7 +47,7 @@ struct Simulation::State {
   PlaneCounters planes;
 
   double density_ahead = 0;  // [s] by which the density is ahead of the particles, after a step made shorter
-  double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0;
+  double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0, capillary_work = 0;
   std::int64_t steps = 0, builds = 0;
   double start_mass = 0;
   Index start_count = 0;  // particles at the start: more than any id

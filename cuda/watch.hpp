@@ -7,7 +7,7 @@
 namespace slagflow {
 
 struct WatchMoment {
-  double time, time_step, dissipated, work;  // work: done by moving walls [J]
+  double time, time_step, dissipated, work;  // work: done by moving walls and surface tension [J]
   std::int64_t step, departed;
 };
 

@@ -47,7 +47,8 @@ struct ShapeSpec {
 
 struct FluidSpec {
   std::string name;
-  double density = 0;  // [kg/m^3]
+  double density = 0;          // [kg/m^3]
+  double surface_tension = 0;  // [N/m]
   RheologyKind rheology = RheologyKind::newtonian;
   std::array<double, most_parameters> parameters{};  // in the order of RheologyInfo::parameters
 
@@ -78,8 +79,9 @@ struct RegionSpec {
 struct WallSpec {
   std::string name;
   WallSlip slip = WallSlip::no_slip;
-  double slip_length = 0;   // [m], of partial slip
-  RigidVelocity surface{};  // of the material along the surface
+  double slip_length = 0;     // [m], of partial slip
+  double contact_angle = 90;  // [degrees]
+  RigidVelocity surface{};    // of the material along the surface
   WallMotion motion{};
   std::vector<ShapeSpec> shapes, subtract;
 };

@@ -60,6 +60,7 @@ FluidSpec read_fluid(CaseTable& t, const std::string& name) {
     suspension = read_suspension(t, fluid);
   else
     t.read("density", fluid.density, above(0, "kg/m^3"), Need::required);
+  t.read("surface_tension", fluid.surface_tension, at_least(0, "N/m"));
   std::vector<std::string> names;
   for (const RheologyInfo& info : rheologies) names.push_back(info.name);
   if (!t.read_enum("rheology", fluid.rheology, names, Need::required)) return fluid;
@@ -252,6 +253,10 @@ void read_numerics(CaseTable& top, Case& c) {
   courant.lower_bound = Bound::open;
   t.read("courant", n.courant, courant);
   t.read("max_time_step", n.max_time_step, at_least(0, "s"));
+  // Diffusion of the density undermines the pressure that balances surface tension.
+  constexpr double with_surface_tension = 0.01;
+  for (const FluidSpec& fluid : c.fluids)
+    if (fluid.surface_tension > 0) n.density_diffusion = with_surface_tension;
   t.read("density_diffusion", n.density_diffusion, between(0, 1, ""));
   t.read("tension_limit", n.tension_limit, at_least(0, "Pa"));
   t.read("anti_pairing", n.anti_pairing, between(0, 1, ""));

@@ -98,6 +98,7 @@ void read_walls(CaseTable& top, Case& c) {
     if (t.read("name", wall.name, Need::required)) check_name(t, wall.name);
     check_unique(t, c.walls, wall.name);
     read_slip(t, wall);
+    t.read("contact_angle", wall.contact_angle, between(0, 180, "degrees"));
     read_surface(t, wall);
     read_motion(t, wall.motion);
     read_shapes(t, "shapes", Need::required, c.file, wall.shapes);

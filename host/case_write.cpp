@@ -92,6 +92,7 @@ void write_frame(std::ostream& out, const Case& c) {
 void write_fluids(std::ostream& out, const Case& c) {
   for (const FluidSpec& fluid : c.fluids) {
     out << "[fluid." << fluid.name << "]\ndensity = " << show(fluid.density)
+        << "\nsurface_tension = " << show(fluid.surface_tension)
         << "\nrheology = " << quoted(fluid.info().name) << "\n";
     for (int k = 0; k < fluid.info().parameter_count; ++k)
       out << fluid.info().parameters[k].key << " = " << show(fluid.parameters[static_cast<std::size_t>(k)])
@@ -141,6 +142,7 @@ void write_walls(std::ostream& out, const Case& c) {
   for (const WallSpec& wall : c.walls) {
     out << "[[wall]]\nname = " << quoted(wall.name) << "\nslip = " << name_of(slip_names, wall.slip);
     if (wall.slip == WallSlip::partial_slip) out << "\nslip_length = " << show(wall.slip_length);
+    out << "\ncontact_angle = " << show(wall.contact_angle);
     if (wall.slip != WallSlip::free_slip)
       out << "\nsurface_velocity = " << text_of(wall.surface.velocity)
           << "\nsurface_angular_velocity = " << text_of(wall.surface.angular_velocity)

@@ -86,6 +86,10 @@ void add_time_step(CaseCheck& check, const BuiltCase& built) {
   const NumericsSetup& numerics = built.setup.numerics;
   check.time_step = numerics.courant * (check.support_radius / 2) / numerics.sound_speed;
   check.time_step_reason = "courant (h/2) / sound speed";
+  if (const double limit = capillary_time_step(built.setup); limit < check.time_step) {
+    check.time_step = limit;
+    check.time_step_reason = "courant sqrt(rho spacing^3 / (2 pi surface tension))";
+  }
   if (numerics.max_time_step > 0 && numerics.max_time_step < check.time_step) {
     check.time_step = numerics.max_time_step;
     check.time_step_reason = "numerics.max_time_step";

@@ -50,6 +50,7 @@ FluidSetup fluid_setup(const FluidSpec& spec) {
   FluidSetup fluid;
   fluid.name = spec.name;
   fluid.rest_density = spec.density;
+  fluid.surface_tension = spec.surface_tension;
   fluid.rheology.kind = spec.rheology;
   for (std::size_t k = 0; k < spec.parameters.size(); ++k)
     fluid.rheology.parameters[k] = static_cast<Real>(spec.parameters[k]);
@@ -95,7 +96,8 @@ BuiltCase build_setup(const Case& c) {
   setup.particles = std::move(filling.fluid);
   setup.walls = std::move(filling.walls);
   for (const WallSpec& wall : c.walls)
-    setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.surface, wall.motion});
+    setup.bodies.push_back(
+        {wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.surface, wall.motion});
   setup.domain = c.domain;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
   setup.numerics = built.resolved.numerics;

@@ -18,6 +18,8 @@ struct AddImpulse {
   Real dt, theta;
   Span<const Quad> velocity, explicit_velocity;
   WallYield yield;
+  CapillaryView capillary;
+  TensionWeight tension_weight;
   Span<const Index> id;
   Span<Impulse> impulse;
 
@@ -40,7 +42,9 @@ struct AddImpulse {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Real other = wall_pressure_share(c.flow, c.wall.pressure[w], rest_density);
     const Real push = -dt * own.w * own.w * pair_pressure(c.flow, smoothing, own.x, other, r) * f;
-    const Vec3d pressure = to_double(push * d);
+    Vec3d pressure = to_double(push * d);
+    if (capillary.any())
+      pressure += to_double(dt * capillary_pull(capillary, tension_weight, i, d, r, c.flow.wall_volume));
     Vec3d viscous;
     if (wall.w >= 0) {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
@@ -100,6 +104,7 @@ void WallForces::start(const std::vector<std::uint8_t>& body) {
 void WallForces::add(const PairContext& c, const ListView& list, const WallArrays& wall,
                      const WallForceStep& step) {
   const Lucy smoothing(static_cast<double>(c.flow.support), c.flow.dimensions);
+  const TensionWeight tension_weight(static_cast<double>(c.flow.support), c.flow.dimensions);
   auto sweep = [&](auto box) {
     const AddImpulse<Lucy, decltype(box)> body{c,
                                                list,
@@ -110,6 +115,8 @@ void WallForces::add(const PairContext& c, const ListView& list, const WallArray
                                                step.velocity,
                                                step.explicit_velocity,
                                                step.yield,
+                                               step.capillary,
+                                               tension_weight,
                                                wall.id.span(),
                                                impulse_.span()};
     launch(context_, "wall forces", wall.count, if_converged(step.solve, body));

@@ -6,6 +6,7 @@
 #include "exact_yield.hpp"
 #include "simulation.hpp"
 #include "solvers/solve_state.hpp"
+#include "surface_tension.hpp"
 
 namespace slagflow {
 
@@ -14,6 +15,7 @@ struct WallForceStep {
   double dt, theta;
   Span<const Quad> velocity, explicit_velocity;
   WallYield yield;
+  CapillaryView capillary{};
   const SolveState* solve = nullptr;  // if given: nothing is added unless it has converged
 };
 

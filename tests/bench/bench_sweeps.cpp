@@ -73,7 +73,7 @@ void viscous(benchmark::State& state, ViscousSolver solver, const char* part) {
   NumericsSetup numerics = scene.setup().numerics;
   numerics.solver = solver, numerics.max_iterations = iterations, numerics.tolerance = 1e-30;
   ViscousStep step(scene.context, numerics);
-  const double dt = acoustic_time_step(scene.setup());
+  const double dt = stable_time_step(scene.setup());
   const bool solves = std::string(part) == "viscous solve";
   double seconds = 0, rounds = 0;
   const std::vector<Quad> no_increment(static_cast<std::size_t>(scene.fluid.count));

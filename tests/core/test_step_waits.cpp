@@ -37,6 +37,15 @@ TEST(StepWaits, OnceInAStepOfFlow) {
   EXPECT_EQ(count.most, 1);
 }
 
+TEST(StepWaits, OnceInAStepWithSurfaceTension) {
+  SimulationSetup s = dam();
+  s.fluids[0].surface_tension = 2;
+  s.limits.interval = 1000000;
+  const Count count = count_waits(s, 60);
+  EXPECT_GT(count.quiet_steps, 10);
+  EXPECT_EQ(count.most, 1);
+}
+
 TEST(StepWaits, OnceInAStepAtRest) {
   SimulationSetup s = tank(oil());
   s.limits.interval = 1000000;

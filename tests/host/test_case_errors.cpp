@@ -89,6 +89,13 @@ const std::vector<Wrong> wrong_cases{
     {9,
      "rheology = 'newtonian'",
      {"key 'fluid.slag.dynamic_viscosity': missing", "case.toml:11: key 'fluid.slag.yield_stress': unknown"}},
+    {8,
+     "density = 965\nsurface_tension = -1",
+     {"case.toml:9: key 'fluid.slag.surface_tension': value -1", "allowed: a number >= 0.0 [N/m]"}},
+    {16,
+     "name = 'w'\ncontact_angle = 181",
+     {"case.toml:17: key 'wall.0.contact_angle': value 181",
+      "allowed: a number >= 0.0 and <= 180.0 [degrees]"}},
     // Missing keys
     {4, "", {"case.toml:3: key 'resolution.spacing': missing: required: a number > 0.0 [m]"}},
     {2, "", {"case.toml:1: key 'case.name': missing"}},
