@@ -6,7 +6,8 @@ causes, by Row.key."""
 import importlib
 
 FLOWS = ("poiseuille", "couette", "bingham_poiseuille", "creep", "film", "pipe", "cylinders", "shear_wave",
-         "as_printed", "taylor_green", "rigid_rotation", "hydrostatic", "slump", "vertical_face", "gravity_current")
+         "as_printed", "taylor_green", "rigid_rotation", "hydrostatic", "slump", "vertical_face", "gravity_current",
+         "drops")
 
 
 def comparisons():
