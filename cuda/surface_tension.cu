@@ -140,8 +140,7 @@ struct Divergence {
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; ++k) {
-      const Offset at = first + k / lane_count * lane_count * ListView::stride() + k % lane_count;
-      const Vec3 d = box.separation(x, xyz(c.wall.place[c.wall_list.entry[at]]));
+      const Vec3 d = box.separation(x, xyz(c.wall.place[c.wall_list.entry[first + k * ListView::stride()]]));
       const Real r2 = dot(d, d);
       if (r2 < square(c.flow.support))
         sum += capillary_pull(capillary, weight, i, d, std::sqrt(r2), c.flow.wall_volume);

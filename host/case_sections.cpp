@@ -242,6 +242,26 @@ void read_scheme(CaseTable& t, NumericsSetup& n) {
   n.solver = ViscousSolver::sor;
 }
 
+// Operator, time integration and yield stress.
+void read_viscous_step(CaseTable& t, NumericsSetup& n) {
+  read_scheme(t, n);
+  t.read_enum("operator", n.viscous_operator, operator_names);
+  t.read_enum("explicit_part", n.explicit_part, explicit_names);
+  if (t.says("viscosity_correction", "auto"))
+    n.viscosity_correction = 0;
+  else
+    t.read("viscosity_correction", n.viscosity_correction, between(0.5, 2, "or \"auto\""));
+  t.read_enum("viscous_step", n.viscous_step, stepping_names);
+  Range diffusion_number = between(0, 1, "");
+  diffusion_number.lower_bound = Bound::open;
+  t.read("diffusion_number", n.diffusion_number, diffusion_number);
+  t.read("theta", n.theta, between(0.5, 1, ""));
+  t.read_enum("yield", n.yield, yield_names);
+  t.read_integer("yield_iterations", n.yield_iterations, 1, 100000);
+  if (!t.says("yield_augmentation", "auto"))
+    t.read("yield_augmentation", n.yield_augmentation, above(0, "or \"auto\""));
+}
+
 void read_numerics(CaseTable& top, Case& c) {
   CaseTable t = top.table("numerics");
   NumericsSetup& n = c.numerics;
@@ -261,22 +281,7 @@ void read_numerics(CaseTable& top, Case& c) {
   t.read("tension_limit", n.tension_limit, at_least(0, "Pa"));
   t.read("anti_pairing", n.anti_pairing, between(0, 1, ""));
   t.read("shifting", n.shifting, between(0, 1, ""));
-  read_scheme(t, n);
-  t.read_enum("operator", n.viscous_operator, operator_names);
-  t.read_enum("explicit_part", n.explicit_part, explicit_names);
-  if (t.says("viscosity_correction", "auto"))
-    n.viscosity_correction = 0;
-  else
-    t.read("viscosity_correction", n.viscosity_correction, between(0.5, 2, "or \"auto\""));
-  t.read_enum("viscous_step", n.viscous_step, stepping_names);
-  Range diffusion_number = between(0, 1, "");
-  diffusion_number.lower_bound = Bound::open;
-  t.read("diffusion_number", n.diffusion_number, diffusion_number);
-  t.read("theta", n.theta, between(0.5, 1, ""));
-  t.read_enum("yield", n.yield, yield_names);
-  t.read_integer("yield_iterations", n.yield_iterations, 1, 100000);
-  if (!t.says("yield_augmentation", "auto"))
-    t.read("yield_augmentation", n.yield_augmentation, above(0, "or \"auto\""));
+  read_viscous_step(t, n);
   t.read_enum("solver", n.solver, solver_names);
   t.read("tolerance", n.tolerance, above(0, ""));
   t.read_integer("max_iterations", n.max_iterations, 1, 100000);
