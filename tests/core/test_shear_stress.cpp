@@ -83,8 +83,8 @@ TEST_P(ShearStress, IsZeroInARigidMotion) {
 INSTANTIATE_TEST_SUITE_P(, ShearStress, testing::ValuesIn(all_scenes()),
                          [](const auto& p) { return scene_name(p.param); });
 
-// A stress that grows evenly through a lattice: u'(z) = 2 + 30 z with eta = 1 / u' + z / u', so that eta u' =
-// 1 + z / (1 m) up to the lattice's factor, which is that of a uniform shear.
+// A stress that grows evenly through a lattice, eta u' = (1 + 10 z) Pa with z in m from the middle, under an
+// even shear and under one that grows: up to the lattice's factor, that of a uniform shear, both tell 1 Pa.
 TEST(ShearStressOnALattice, OfALinearStressIsThatStress) {
   Scene scene({3, Surroundings::free, 9, 0, 1});
   const double middle = 4.5 * Scene::spacing;
