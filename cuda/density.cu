@@ -14,14 +14,13 @@ struct PairSums {
 // Particle i as its pairs see it.
 struct Centre {
   Vec3 place, velocity;
-  Real excess;       // density - rest density
-  Vec3 hydrostatic;  // gradient of the density at rest
+  Real excess;        // density - rest density
+  Real slope;         // gradient of the density over the acceleration that it gives
+  Vec3 acceleration;  // by pressure
 };
 
 // Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
-// `capillary`: with surface tension, whose equilibrium is not to be diffused away any more than that of
-// gravity.
-template <bool capillary, class Smoothing, class Box>
+template <class Smoothing, class Box>
 struct DensityAndShear {
   PairContext c;
   Smoothing smoothing;
@@ -33,9 +32,9 @@ struct DensityAndShear {
     const Quad motion = c.fluid.motion[i];
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w,
-                        (rest_density / c.flow.sound_speed_squared) * c.flow.gravity};
+                        rest_density / c.flow.sound_speed_squared, xyz(c.fluid.by_pressure[i])};
     PairSums sums;
-    add_fluid(i, centre, rest_density / c.flow.sound_speed_squared, sums);
+    add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
     const Real rate =
         (rest_density + motion.w) * total(sums.divergence) + c.flow.diffusion * total(sums.diffusion);
@@ -43,10 +42,9 @@ struct DensityAndShear {
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
   }
 
-  // `slope`: gradient of the density at rest over the acceleration.
-  HOST_DEVICE void add_fluid(Index i, const Centre& centre, Real slope, PairSums& sums) const {
+  HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
-                   hydrostatic = in_lanes(centre.hydrostatic);
+                   a = in_lanes(centre.acceleration);
     const Offset first = c.fluid_list.row(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -60,19 +58,15 @@ struct DensityAndShear {
       const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
       const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
       sums.divergence += share;
-      Lanes difference = (other.w - centre.excess) + dot(hydrostatic, d);
-      if constexpr (capillary) {
-        const LaneVec3 both = in_lanes(xyz(c.capillary[i])) + xyz(gather(c.capillary, j));
-        difference += (Real(0.5) * slope) * dot(both, d);
-      }
-      sums.diffusion -= weight * difference;
+      const LaneVec3 both = a + xyz(gather(c.fluid.by_pressure, j));
+      sums.diffusion -= weight * ((other.w - centre.excess) - (Real(0.5) * centre.slope) * dot(both, d));
       sums.shear -= share * approach / (r2 + c.flow.softening);
     }
   }
 
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
-                   hydrostatic = in_lanes(centre.hydrostatic);
+                   hydrostatic = in_lanes(centre.slope * c.flow.gravity);
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -124,13 +118,12 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
                     Real dt) {
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
   scratch.resize(fluid.count);
-  auto sweep = [&](auto box, auto capillary) {
-    launch(context, "density and shear rate", fluid.count,
-           DensityAndShear<capillary.value, Lucy, decltype(box)>{c, smoothing, box, dt, scratch.span(),
-                                                                 fluid.shear_rate.span()});
+  auto sweep = [&](auto box) {
+    launch(
+        context, "density and shear rate", fluid.count,
+        DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, dt, scratch.span(), fluid.shear_rate.span()});
   };
-  auto choose = [&](auto capillary) { c.box.any() ? sweep(c.box, capillary) : sweep(OpenBox{}, capillary); };
-  c.capillary.size > 0 ? choose(std::true_type{}) : choose(std::false_type{});
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
   launch(
       context, "state", fluid.count,
       StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),

@@ -21,9 +21,13 @@ struct PairContext {
 
 // Advances the density by dt with
 //   d rho_i/dt = rho_i sum_j V_j (v_i - v_j).grad W_ij
-//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho_i) - rho0 (g + a_ij).(x_j - x_i)/c0^2]
-// (diffusion: G. Fourtakas et al., Comput. Fluids 190 (2019) 346; a_ij: mean acceleration of the pair by
-// surface tension), sets the pressure by the equation of state
+//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho_i) + rho0 a_ij.(x_j - x_i)/c0^2],
+// a_ij the mean acceleration of the pair by pressure in the last step, so that rho0 a/c0^2 is minus the
+// smooth gradient of the density: what diffuses is noise between neighbours, not the gradient that holds
+// gravity, viscosity, a yield stress or surface tension. Wall pairs have -g for a_ij: theirs is the pressure
+// that gravity continues (wall_pressure.hpp). With -g for all pairs it is the diffusion of G. Fourtakas et
+// al., Comput. Fluids 190 (2019) 346, which blows up thin fluid that viscous stress holds. Sets the pressure
+// by the equation of state
 //   p = max(c0^2 (rho - rho0), -p_t)
 // and the viscosity from the shear rate
 //   gamma_i^2 = C (d+2) sum_j V_j |F_ij| ((v_i - v_j).x_ij)^2 / r^2,

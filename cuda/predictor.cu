@@ -51,11 +51,10 @@ struct PredictAndAssemble {
       }
       store_lanes(&out.weight[at], weight);
     }
-    Vec3 body = c.flow.gravity + c.flow.body_acceleration;
-    if (c.capillary.size > 0) body += xyz(c.capillary[i]);
-    walls(i, x, own, body + total(acceleration), Vec3{own.w, own.w, own.w} + total(diagonal));
+    walls(i, x, own, total(acceleration), Vec3{own.w, own.w, own.w} + total(diagonal));
   }
 
+  // `acceleration`: by the pressure of the fluid.
   HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Real factor =
@@ -83,6 +82,9 @@ struct PredictAndAssemble {
       drag += couple(c.flow.coupling, sticking, d, xyz(motion));
     }
     acceleration -= own.w * total(push);
+    out.by_pressure[i] = quad(acceleration, 0);
+    acceleration += c.flow.gravity + c.flow.body_acceleration;
+    if (c.capillary.size > 0) acceleration += xyz(c.capillary[i]);
     const Symmetric3 block = total(coupled);
     const Vec3 predicted = xyz(c.fluid.motion[i]) + dt * acceleration;
     diagonal += Vec3{block.xx, block.yy, block.zz};

@@ -10,6 +10,7 @@ namespace slagflow {
 // What the sweep writes, one entry per fluid particle; weights per pair.
 struct PredictorOutput {
   Span<Quad> predicted;        // xyz: u* [m/s]
+  Span<Quad> by_pressure;      // xyz: acceleration by pressure [m/s^2]
   Span<Real> weight;           // w_ij [kg/m^2], laid out as the fluid list; 0 beyond the support
   Span<Quad> diagonal;         // xyz: diagonal of A, w: mass [kg]
   Span<Symmetric3> wall;       // wall block B [kg]

@@ -95,6 +95,7 @@ void Simulation::State::upload_fluid() {
       fluid.id.upload(id);
   fluid.fluid.upload(p.fluid);
   fluid.increment.upload(std::vector<Quad>(n));
+  fluid.by_pressure.upload(std::vector<Quad>(n, quad(to_real(-1 * setup.gravity), 0)));
   fluid.state.upload(std::vector<Quad>(n));
   fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
   fluid.shear_rate.upload(std::vector<Real>(n));

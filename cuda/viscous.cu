@@ -130,8 +130,8 @@ void ViscousStep::begin(const PairContext& whole, const Step& step, Offset pair_
   const auto theta = static_cast<Real>(is_explicit() ? 1 : numerics_.theta);
   {
     Section timer(context_, "predictor and assembly");
-    const PredictorOutput out{predicted_.span(), weight_.span(), diagonal_.span(), wall_.span(),
-                              right_hand_side_.span()};
+    const PredictorOutput out{predicted_.span(), fluid.by_pressure.span(), weight_.span(), diagonal_.span(),
+                              wall_.span(),      right_hand_side_.span()};
     predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), theta);
   }
   Section timer(context_, "viscous solve");

@@ -54,6 +54,7 @@ inline long double viscosity(const Fluid& f, long double shear_rate) {
 
 struct Particle {
   Vec x, v;
+  Vec by_pressure;    // acceleration in the last step
   double excess = 0;  // density - rest density
   double volume = 0, mass = 0, pressure = 0, viscosity = 0;
   int fluid = 0;
@@ -131,16 +132,20 @@ inline Sum density_rate(const World& w, std::size_t i) {
   const double c2 = w.sound_speed * w.sound_speed, rest = w.kind(p).rest_density;
   const double strength = 2 * w.diffusion * (w.support / 2) * w.sound_speed;
   Sum sum;
-  auto pair = [&](Vec d, double volume, Vec velocity, double excess) {
+  // `balanced`: minus the acceleration by pressure
+  auto pair = [&](Vec d, double volume, Vec velocity, double excess, Vec balanced) {
     const double f = slope_over_distance(w, length(d));
     const Vec slip = p.v - velocity;
     sum.add(w.density(p) * volume * f * dot(slip, d), w.density(p) * volume * -f * length(slip) * length(d));
-    const double hydrostatic = rest * dot(w.gravity, -1 * d) / c2;
-    sum.add(strength * volume * -f * (excess - p.excess - hydrostatic),
-            strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(hydrostatic)));
+    const double smooth = rest * dot(balanced, -1 * d) / c2;
+    sum.add(strength * volume * -f * (excess - p.excess - smooth),
+            strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
   };
-  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { pair(d, j.volume, j.v, j.excess); });
-  for_wall_pairs(w, i, [&](const Wall& j, Vec d) { pair(d, w.wall_volume(), j.v, j.pressure / c2); });
+  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
+    pair(d, j.volume, j.v, j.excess, -0.5 * (p.by_pressure + j.by_pressure));
+  });
+  for_wall_pairs(w, i,
+                 [&](const Wall& j, Vec d) { pair(d, w.wall_volume(), j.v, j.pressure / c2, w.gravity); });
   return sum;
 }
 

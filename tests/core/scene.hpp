@@ -187,6 +187,8 @@ class Scene {
           p.mass = rest * std::pow(spacing, o.dimensions), p.volume = p.mass / (rest + p.excess);
           p.pressure = random_.uniform(-30, 200);
           p.viscosity = std::pow(10, random_.uniform(-1, 2));
+          const Vec3d a = random_.vector(20);
+          p.by_pressure = {a.x, o.dimensions == 3 ? a.y : 0, a.z};
           world.particles.push_back(p);
         }
   }
@@ -234,16 +236,18 @@ class Scene {
   // Rounds the world to what the device holds, so that only the arithmetic differs.
   void upload_fluid() {
     std::vector<Vec3d> position;
-    std::vector<Quad> place, motion, state;
+    std::vector<Quad> place, motion, by_pressure, state;
     std::vector<std::uint8_t> kind;
     std::vector<Index> id;
     std::vector<Real> pressure;
     for (reference::Particle& p : world.particles) {
       p.x = rounded(p.x), p.v = rounded(p.v), p.excess = rounded(p.excess), p.pressure = rounded(p.pressure);
       p.volume = rounded(p.volume), p.mass = rounded(p.mass), p.viscosity = rounded(p.viscosity);
+      p.by_pressure = rounded(p.by_pressure);
       const double density = world.density(p);
       position.push_back({p.x.x, p.x.y, p.x.z});
       place.push_back(to_device(p.x, p.volume)), motion.push_back(to_device(p.v, p.excess));
+      by_pressure.push_back(to_device(p.by_pressure, 0));
       state.push_back(to_device({p.pressure / (density * density), p.viscosity, p.volume}, p.mass));
       kind.push_back(static_cast<std::uint8_t>(p.fluid)), id.push_back(static_cast<Index>(id.size()));
       pressure.push_back(static_cast<Real>(p.pressure));
@@ -251,7 +255,7 @@ class Scene {
     fluid.resize(static_cast<Index>(id.size()));
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
     fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id), fluid.pressure.upload(pressure);
-    fluid.increment.upload(std::vector<Quad>(id.size())),
+    fluid.by_pressure.upload(by_pressure), fluid.increment.upload(std::vector<Quad>(id.size())),
         fluid.shear_rate.upload(std::vector<Real>(id.size()));
   }
 

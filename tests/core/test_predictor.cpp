@@ -29,6 +29,16 @@ TEST_P(Predictor, VelocityMatchesOracle) {
   }
 }
 
+TEST_P(Predictor, AccelerationByPressureIsAllButGravityAndBodyForce) {
+  const HostSystem system = assemble(scene_, dt, 1);
+  const reference::Vec rest = scene_.world.gravity + scene_.world.body_acceleration;
+  for (std::size_t i = 0; i < system.by_pressure.size(); ++i) {
+    const reference::Sum a = reference::acceleration(scene_.world, i);
+    const reference::Vec error = to_host(system.by_pressure[i]) - (a.value - rest);
+    EXPECT_LT(reference::length(error), rounding * a.size) << "particle " << i;
+  }
+}
+
 TEST_P(Predictor, AntiPairingPushesClosePairsApartAtEitherSignOfPressure) {
   scene_.world.walls.clear();
   scene_.world.particles.resize(2);

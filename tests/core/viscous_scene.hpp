@@ -12,20 +12,22 @@ namespace slagflow::testing_tools {
 struct DeviceSystem {
   explicit DeviceSystem(Scene& s)
       : predicted(s.context, "predicted", s.fluid.count),
+        by_pressure(s.context, "by pressure", s.fluid.count),
         diagonal(s.context, "diagonal", s.fluid.count),
         right_hand_side(s.context, "right hand side", s.fluid.count),
         wall(s.context, "walls", s.fluid.count),
         weight(s.context, "weights", s.fluid_list.capacity()) {}
 
   PredictorOutput output() {
-    return {predicted.span(), weight.span(), diagonal.span(), wall.span(), right_hand_side.span()};
+    return {predicted.span(), by_pressure.span(), weight.span(),
+            diagonal.span(),  wall.span(),        right_hand_side.span()};
   }
   LinearSystem system(const Scene& s) const {
     return {s.fluid.count, s.fluid_list.view(),    weight.span(), view(s.fluid).place, diagonal.span(),
             wall.span(),   right_hand_side.span(), s.box,         s.flow.coupling};
   }
 
-  Buffer<Quad> predicted, diagonal, right_hand_side;
+  Buffer<Quad> predicted, by_pressure, diagonal, right_hand_side;
   Buffer<Symmetric3> wall;
   Buffer<Real> weight;
 };
@@ -35,6 +37,7 @@ class HostSystem {
  public:
   HostSystem(Scene& s, const DeviceSystem& d)
       : predicted(s.by_id(d.predicted.span())),
+        by_pressure(s.by_id(d.by_pressure.span())),
         diagonal(s.by_id(d.diagonal.span())),
         right_hand_side(s.by_id(d.right_hand_side.span())),
         id_(download(s.context, s.fluid.id.span())),
@@ -87,7 +90,7 @@ class HostSystem {
     return static_cast<double>(xyz(diagonal[i / 3])[static_cast<int>(i % 3)]);
   }
 
-  std::vector<Quad> predicted, diagonal, right_hand_side;
+  std::vector<Quad> predicted, by_pressure, diagonal, right_hand_side;
 
  private:
   LinearSystem system() const {
