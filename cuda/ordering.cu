@@ -149,6 +149,7 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
   reorder(f.place, spare_quad_, n);
   reorder(f.motion, spare_quad_, n);
   reorder(f.increment, spare_quad_, n);
+  reorder(f.last_increment, spare_quad_, n);
   reorder(f.by_pressure, spare_quad_, n);
   reorder(f.state, spare_quad_, n);
   reorder(f.id, spare_index_, n);

@@ -15,6 +15,7 @@ struct FluidArrays {
         place(c, "fluid places"),
         motion(c, "fluid motions"),
         increment(c, "fluid viscous increments"),
+        last_increment(c, "fluid viscous increments"),
         by_pressure(c, "fluid pressure accelerations"),
         id(c, "fluid ids"),
         fluid(c, "fluid kinds"),
@@ -23,11 +24,12 @@ struct FluidArrays {
         shear_rate(c, "fluid shear rates") {}
 
   Index count = 0;
-  Buffer<Vec3d> position;    // [m] relative to the domain's lower corner, fp64: slow creep is kept
-  Buffer<Quad> place;        // xyz: the same rounded [m], w: volume [m^3]
-  Buffer<Quad> motion;       // xyz: velocity [m/s], w: density - rest density [kg/m^3]
-  Buffer<Quad> increment;    // xyz: what the last viscous solve added to the velocity [m/s]
-  Buffer<Quad> by_pressure;  // xyz: acceleration by pressure in the last step [m/s^2]
+  Buffer<Vec3d> position;       // [m] relative to the domain's lower corner, fp64: slow creep is kept
+  Buffer<Quad> place;           // xyz: the same rounded [m], w: volume [m^3]
+  Buffer<Quad> motion;          // xyz: velocity [m/s], w: density - rest density [kg/m^3]
+  Buffer<Quad> increment;       // xyz: first guess of what the next viscous solve adds to the velocity [m/s]
+  Buffer<Quad> last_increment;  // xyz: what the last one added [m/s]
+  Buffer<Quad> by_pressure;     // xyz: acceleration by pressure in the last step [m/s^2]
   Buffer<Index> id;
   Buffer<std::uint8_t> fluid;  // index of the fluid
   // Set anew each step:
@@ -37,7 +39,8 @@ struct FluidArrays {
 
   void resize(Index n) {
     count = n;
-    position.resize(n), place.resize(n), motion.resize(n), increment.resize(n), by_pressure.resize(n);
+    position.resize(n), place.resize(n), motion.resize(n), increment.resize(n), last_increment.resize(n),
+        by_pressure.resize(n);
     id.resize(n), fluid.resize(n), state.resize(n), pressure.resize(n), shear_rate.resize(n);
   }
 };

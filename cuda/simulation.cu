@@ -94,7 +94,7 @@ void Simulation::State::upload_fluid() {
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
       fluid.id.upload(id);
   fluid.fluid.upload(p.fluid);
-  fluid.increment.upload(std::vector<Quad>(n));
+  fluid.increment.upload(std::vector<Quad>(n)), fluid.last_increment.upload(std::vector<Quad>(n));
   fluid.by_pressure.upload(std::vector<Quad>(n, quad(to_real(-1 * setup.gravity), 0)));
   fluid.state.upload(std::vector<Quad>(n));
   fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
@@ -237,7 +237,7 @@ void Simulation::State::solve(const StepRecord& begun) {
     dt /= 2;
     density_ahead += dt;
     walls.place(time, dt, wall);
-    viscous.forget(fluid.increment);
+    viscous.forget(fluid);
     begin_solve();
     result = finish_solve(viscous.read());
   }

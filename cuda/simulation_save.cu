@@ -74,8 +74,8 @@ template <class Visitor, class State>
 void visit_arrays(Visitor& v, State& s) {
   FluidArrays& f = s.fluid;
   v.array("position", f.position), v.array("place", f.place), v.array("motion", f.motion);
-  v.array("increment", f.increment), v.array("by_pressure", f.by_pressure), v.array("id", f.id),
-      v.array("fluid", f.fluid);
+  v.array("increment", f.increment), v.array("last_increment", f.last_increment),
+      v.array("by_pressure", f.by_pressure), v.array("id", f.id), v.array("fluid", f.fluid);
   v.array("state", f.state), v.array("pressure", f.pressure), v.array("shear_rate", f.shear_rate);
   v.array("wall_pressure", s.wall.pressure), v.array("wall_impulse", s.wall_forces.impulses());
   v.array("list_places", s.list_places);
@@ -165,8 +165,9 @@ void Simulation::restore(const SavedState& saved) {
   if (s.exact_yield()) s.viscous.exact_yield().visit_arrays(restorer);
   const Offset n = s.fluid.id.size();
   const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
-                    s.fluid.increment.size() == n && s.fluid.by_pressure.size() == n &&
-                    s.fluid.fluid.size() == n && s.fluid.state.size() == n && s.fluid.pressure.size() == n &&
+                    s.fluid.increment.size() == n && s.fluid.last_increment.size() == n &&
+                    s.fluid.by_pressure.size() == n && s.fluid.fluid.size() == n &&
+                    s.fluid.state.size() == n && s.fluid.pressure.size() == n &&
                     s.fluid.shear_rate.size() == n && s.list_places.size() == n &&
                     s.wall.pressure.size() == walls && s.departed.size() == kinds &&
                     s.planes.records.size() == planes && s.wall_forces.impulses().size() == impulses;

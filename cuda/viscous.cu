@@ -68,8 +68,8 @@ struct ExplicitStep {
 };
 
 struct Forget {
-  Span<Quad> increment;
-  HOST_DEVICE void operator()(Index i) const { increment[i] = {}; }
+  Span<Quad> increment, last;
+  HOST_DEVICE void operator()(Index i) const { increment[i] = last[i] = {}; }
 };
 
 // b -= (1 - theta)/theta [theta dt K v - wall part], v the old velocity or u*; theta dt K v = A v - m v.
@@ -87,6 +87,21 @@ struct ExplicitHalf {
 };
 
 }  // namespace
+
+// The first guess of the next step with it: a pressure gradient that grew goes on to grow. Nothing is known
+// of a change before the second step, and after a guess was forgotten.
+struct AddAndGuess {
+  Span<const Quad> predicted;
+  Span<Quad> increment, last;
+  Span<Quad> velocity;
+  HOST_DEVICE void operator()(Index i) const {
+    const Vec3 now = xyz(increment[i]), before = xyz(last[i]);
+    const Real share = dot(before, before) > 0 ? Real(0.5) : Real(0);
+    velocity[i] = quad(xyz(predicted[i]) + now, 0);
+    last[i] = quad(now, 0);
+    increment[i] = quad(now + share * (now - before), 0);
+  }
+};
 
 ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
     : context_(c),
@@ -149,9 +164,7 @@ void ViscousStep::begin(const PairContext& whole, const Step& step, Offset pair_
   } else {
     begin_solve(matrix, step, fluid.increment);
   }
-  launch(
-      context_, "add increment", n,
-      if_converged(work_.state(), AddIncrement{predicted_.span(), fluid.increment.span(), velocity_.span()}));
+  launch(context_, "add increment", n, if_converged(work_.state(), end_solve(fluid)));
 }
 
 SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole, const RowCells& rows,
@@ -166,8 +179,15 @@ SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole,
                                  ? solve_exact(system(c), c, rows, step, fluid.increment)
                                  : go_on(system(c), rows, s, wanted * wanted / step.mass, fluid.increment);
   if (result.converged) launch(context_, "solved", 1, Declare{work_.state(), true});
-  add_increment(fluid.increment);
+  if (exact_yield_stress())
+    add_increment(fluid.increment);
+  else
+    launch(context_, "add increment", fluid.count, end_solve(fluid));
   return result;
+}
+
+AddAndGuess ViscousStep::end_solve(FluidArrays& fluid) {
+  return {predicted_.span(), fluid.increment.span(), fluid.last_increment.span(), velocity_.span()};
 }
 
 void ViscousStep::add_increment(const Buffer<Quad>& increment) {
@@ -223,8 +243,8 @@ double ViscousStep::wanted_residual(const Step& step, Index count) const {
   return numerics_.tolerance * step.mass * step.kick * std::sqrt(static_cast<double>(count));
 }
 
-void ViscousStep::forget(Buffer<Quad>& increment) {
-  launch(context_, "forget", static_cast<Index>(increment.size()), Forget{increment.span()});
+void ViscousStep::forget(FluidArrays& fluid) {
+  launch(context_, "forget", fluid.count, Forget{fluid.increment.span(), fluid.last_increment.span()});
 }
 
 SolveResult ViscousStep::go_on(const LinearSystem& matrix, const RowCells& rows, const SolveState& now,

@@ -12,13 +12,16 @@
 
 namespace slagflow {
 
+struct AddAndGuess;
+
 class ViscousStep {
  public:
   ViscousStep(Context&, const NumericsSetup&);
 
   // Predictor, assembly and solve. `kick`: velocity scale of the stop test [m/s] (one gravity kick g dt, or
   // what stands for it); `mass`: the smallest particle mass [kg].
-  // Returns with velocity() = u^{k+1}; fluid.increment is read as the first guess and set anew.
+  // Returns with velocity() = u^{k+1}; fluid.increment is read as the first guess and set to that of the next
+  // step: what this one added and half of how that has changed. (All of the change makes noise grow.)
   struct Step {
     double dt, kick, mass;
   };
@@ -33,7 +36,7 @@ class ViscousStep {
   StepRecord* record() { return work_.record.span().data; }
 
   // Sets the first guess to nothing.
-  void forget(Buffer<Quad>& increment);
+  void forget(FluidArrays&);
 
   ExactYield& exact_yield() { return yield_; }
   Span<const Quad> velocity() const { return velocity_.span(); }
@@ -56,6 +59,7 @@ class ViscousStep {
   SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,
                     Buffer<Quad>& increment);
   void add_increment(const Buffer<Quad>& increment);
+  AddAndGuess end_solve(FluidArrays&);
   double relative_augmentation() const;
   Real augmentation(const PairContext&, const Step&) const;
   SolveResult solve_exact(const LinearSystem&, const PairContext&, const RowCells&, const Step&,

@@ -256,6 +256,7 @@ class Scene {
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
     fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id), fluid.pressure.upload(pressure);
     fluid.by_pressure.upload(by_pressure), fluid.increment.upload(std::vector<Quad>(id.size())),
+        fluid.last_increment.upload(std::vector<Quad>(id.size())),
         fluid.shear_rate.upload(std::vector<Real>(id.size()));
   }
 
