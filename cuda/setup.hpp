@@ -87,7 +87,7 @@ enum class ViscousSolver { multigrid, conjugate_gradient, sor, jacobi };
 
 struct NumericsSetup {
   double sound_speed = 0;           // [m/s]
-  double courant = 0.5;             // dt <= courant (h/2) / sound_speed
+  double courant = 0.8;             // dt <= courant (h/2) / sound_speed
   double max_time_step = 0;         // [s], 0: no further limit
   double density_diffusion = 0.1;   // delta of Fourtakas et al. 2019
   double tension_limit = 0;         // [Pa] >= 0, pressure is cut off at -tension_limit

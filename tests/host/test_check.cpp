@@ -49,9 +49,9 @@ TEST(CaseCheck, NumbersFollowTheirFormulas) {
 
 TEST(CaseCheck, TimeStepNamesItsLimit) {
   BuiltCase built = block();
-  EXPECT_NEAR(check_case(built).time_step, 0.5 * 0.013 / 7, 1e-12);
+  EXPECT_NEAR(check_case(built).time_step, 0.8 * 0.013 / 7, 1e-12);
   EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("sound speed"));
-  EXPECT_EQ(check_case(built).steps, std::ceil(1 / (0.5 * 0.013 / 7)));
+  EXPECT_EQ(check_case(built).steps, std::ceil(1 / (0.8 * 0.013 / 7)));
   built.setup.numerics.max_time_step = 1e-4;
   EXPECT_EQ(check_case(built).time_step, 1e-4);
   EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("max_time_step"));

@@ -43,7 +43,7 @@ TEST_F(FullDisk, EndsTheRunWithTheReasonAndItGoesOnElsewhere) {
   std::ofstream(folder_ / "tiny.toml") << tiny_case("0.02");
   const std::string options =
       " --threads 1 --quiet --overwrite --set output.checkpoint_interval=0.2 --set resolution.spacing=1e-3"
-      " --set output.interval=1e-4";
+      " --set output.interval=1e-4 --set numerics.courant=0.5";
   const std::string run = SLAGFLOW_PROGRAM " run " + (folder_ / "tiny.toml") + options + " -o ";
   ASSERT_EQ(shell(run + (folder_ / "unbroken")), 0) << said();
   // The run writes 5 MiB, and wants as much free before it begins a time step in a file.
