@@ -17,7 +17,7 @@ except ImportError as missing:
 
 PROJECT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "scripts"))
-from plotting import history  # noqa: E402
+from plotting import flow, history, paper_views  # noqa: E402
 from plotting.run_folder import RunFolder, RunFolderError  # noqa: E402
 from plotting.splat import OVERSAMPLING, Canvas, View  # noqa: E402
 
@@ -112,6 +112,13 @@ class Plot(unittest.TestCase):
             f"[resolution]\nspacing = {SPACING}\ndimensions = 2\n")
         self.assertEqual(self.plot(self.folder).returncode, 0)
         self.assertLess(self.picture_size("flow.png")[0], three)
+
+    def test_views_of_the_papers_figures_are_drawn_side_by_side(self):
+        self.make_run([0, 0.1], [50, 50])
+        run, target = RunFolder(self.folder), self.folder / "views.png"
+        views = [paper_views.Picture(run, 0.1, "side"), paper_views.Picture(run, 0.1, "oblique", flow.OBLIQUE, ("", ""))]
+        paper_views.draw(views, "two views", target)
+        self.assertGreater(matplotlib.image.imread(target).shape[1], 600)
 
     def test_run_without_particles_is_drawn(self):
         self.make_run([0], [0])

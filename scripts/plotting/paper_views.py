@@ -46,7 +46,7 @@ def draw(pictures, heading, path):
     for picture in pictures:
         across, tall = scale * picture.panel.size
         axes = figure.add_axes([left / width, (FOOT + tallest - tall) / height, across / width, tall / height])
-        layers = flow.wall_layers(picture.panel, scale * flow.DPI, picture.scene)
+        layers = flow.wall_layers(picture.panel, scale * flow.DPI, picture.scene, 0)
         for layer in layers + [flow.fluid_layer(picture.panel, scale * flow.DPI, picture.scene, picture.step, norm)]:
             axes.imshow(layer, origin="lower", extent=picture.panel.extent, interpolation="none")
         flow.dress(axes, picture.panel)
