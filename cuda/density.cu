@@ -79,6 +79,9 @@ struct DensityAndShear {
       const Lanes weight = select(near, c.flow.wall_volume * smoothing.gradient(root(r2)), Lanes(0));
       const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
       sums.divergence += share;
+      // The fluid still has the velocity of the last step; so must the wall, that they keep their distance.
+      if (c.wall.acceleration.size > 0)
+        sums.divergence += weight * (Lanes(dt) * dot(xyz(gather(c.wall.acceleration, j)), d));
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure / c.flow.sound_speed_squared - centre.excess;

@@ -24,8 +24,9 @@ struct PairContext {
 //              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho_i) + rho0 a_ij.(x_j - x_i)/c0^2],
 // a_ij the mean acceleration of the pair by pressure in the last step, so that rho0 a/c0^2 is minus the
 // smooth gradient of the density: what diffuses is noise between neighbours, not the gradient that holds
-// gravity, viscosity, a yield stress or surface tension. Wall pairs have -g for a_ij: theirs is the pressure
-// that gravity continues (wall_pressure.hpp). With -g for all pairs it is the diffusion of G. Fourtakas et
+// gravity, viscosity, a yield stress or surface tension. Wall pairs have a_w - g for a_ij: theirs is the
+// pressure that gravity continues (wall_pressure.hpp), and v_j less dt a_w, the velocity of the last step as the
+// fluid's. With -g for all pairs it is the diffusion of G. Fourtakas et
 // al., Comput. Fluids 190 (2019) 346, which blows up thin fluid that viscous stress holds. Sets the pressure
 // by the equation of state
 //   p = max(c0^2 (rho - rho0), -p_t)

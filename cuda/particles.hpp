@@ -52,6 +52,7 @@ struct WallArrays {
         normal(c, "wall normals"),
         back(c, "wall back faces"),
         velocity(c, "wall velocities"),
+        acceleration(c, "wall accelerations"),
         pressure(c, "wall pressures"),
         id(c, "wall ids") {}
 
@@ -61,11 +62,13 @@ struct WallArrays {
   Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
   Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
   Buffer<Quad> velocity;  // xyz: velocity of the surface [m/s], w: slip length [m], 0 no slip, < 0 free slip
-  Buffer<Real> pressure;  // [Pa]
+  Buffer<Quad> acceleration;  // xyz: of the wall's material [m/s^2]; empty where no wall ever moves
+  Buffer<Real> pressure;      // [Pa]
   Buffer<Index> id;
 
   void resize(Index n) {
     count = n;
+    if (acceleration.size() > 0) acceleration.resize(n);
     place.resize(n), normal.resize(n), back.resize(n), velocity.resize(n), pressure.resize(n), id.resize(n);
   }
 };
@@ -79,7 +82,7 @@ struct FluidView {
 
 struct WallView {
   Index count = 0;
-  Span<const Quad> place, normal, back, velocity;
+  Span<const Quad> place, normal, back, velocity, acceleration;
   Span<const Real> pressure;
 };
 
@@ -89,7 +92,8 @@ inline FluidView view(const FluidArrays& f) {
 }
 
 inline WallView view(const WallArrays& w) {
-  return {w.count, w.place.span(), w.normal.span(), w.back.span(), w.velocity.span(), w.pressure.span()};
+  return {w.count,           w.place.span(),        w.normal.span(),  w.back.span(),
+          w.velocity.span(), w.acceleration.span(), w.pressure.span()};
 }
 
 }  // namespace slagflow

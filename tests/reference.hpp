@@ -67,6 +67,7 @@ struct Wall {
   double back_depth = 0;  // below the opposite face of a thin plate; 0: there is none
   bool sticks = true;
   double slip_length = 0;  // Navier's, of a wall that sticks in part
+  Vec acceleration;
 };
 
 struct World {
@@ -182,7 +183,8 @@ inline Sum wall_pressure(const World& w, const Wall& wall) {
   double weights = 0;
   for (const Particle& p : w.particles)
     for_images(w, wall.x, p.x, w.support, [&](Vec d) {
-      const double weight = lucy(length(d), w.support, w.dimensions), head = w.density(p) * dot(w.gravity, d);
+      const double weight = lucy(length(d), w.support, w.dimensions);
+      const double head = w.density(p) * dot(w.gravity - wall.acceleration, d);
       weights += weight;
       sum.add(weight * (p.pressure + head), weight * (std::fabs(p.pressure) + std::fabs(head)));
     });

@@ -30,6 +30,16 @@ double interpolate(const std::vector<double>& t, const std::vector<double>& y, I
          h * s * rest * (slope(t, y, k) * rest - slope(t, y, k + 1) * s);
 }
 
+// d2y/dt2 of a smooth table; outside its rows and of a linear one zero.
+double curvature(const std::vector<double>& t, const std::vector<double>& y, Interpolation how, double now) {
+  if (how == Interpolation::linear || now <= t.front() || now >= t.back()) return 0;
+  const auto k = static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), now) - t.begin()) - 1;
+  const double h = t[k + 1] - t[k], s = (now - t[k]) / h;
+  return (6 * (1 - 2 * s) * (y[k + 1] - y[k]) / h + (6 * s - 4) * slope(t, y, k) +
+          (6 * s - 2) * slope(t, y, k + 1)) /
+         h;
+}
+
 std::vector<double> component(const std::vector<Vec3d>& vectors, int axis) {
   std::vector<double> result;
   for (const Vec3d& v : vectors) result.push_back(v[axis]);
@@ -64,6 +74,31 @@ BodyPose WallMotion::pose(double now) const {
       break;
   }
   return {};
+}
+
+BodyPose WallMotion::acceleration(double now) const {
+  BodyPose result;
+  if (now <= start || now >= stop) return result;
+  const double clock = now - start;
+  switch (kind) {
+    case MotionKind::ramp:
+      if (clock < ramp_time) result = {velocity * (1 / ramp_time), angular_velocity * (1 / ramp_time)};
+      break;
+    case MotionKind::sine: {
+      const double s = -square(two_pi * frequency) * std::sin(two_pi * frequency * clock + phase);
+      result = {amplitude * s, angular_amplitude * s};
+      break;
+    }
+    case MotionKind::table:
+      for (int k = 0; k < 3; ++k)
+        result.shift[k] = curvature(time, component(displacement, k), interpolation, clock);
+      if (!angle.empty()) result.turn = curvature(time, angle, interpolation, clock) * unit(axis);
+      break;
+    case MotionKind::constant:
+    case MotionKind::rest:
+      break;
+  }
+  return result;
 }
 
 WallMotion::Speeds WallMotion::fastest() const {

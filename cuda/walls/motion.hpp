@@ -46,6 +46,10 @@ struct WallMotion {
   bool moves() const { return kind != MotionKind::rest || remove_at < never; }
   BodyPose pose(double now) const;
 
+  // d2 shift/dt2 [m/s^2] and d2 turn/dt2 [rad/s^2]; jumps of the velocity, at `start`, `stop` and the rows of
+  // a linear table, are left out.
+  BodyPose acceleration(double now) const;
+
   // Bounds of |d shift/dt| [m/s] and |d turn/dt| [rad/s].
   struct Speeds {
     double linear = 0, angular = 0;

@@ -15,7 +15,7 @@ struct PlaceWall {
   Span<const Vec3d> start;
   Span<const Quad> start_normal, start_back, start_velocity;
   Span<const Index> id;
-  Span<Quad> place, normal, back, velocity;
+  Span<Quad> place, normal, back, velocity, acceleration;
 
   HOST_DEVICE void operator()(Index i) const {
     const Index k = id[i];
@@ -30,6 +30,9 @@ struct PlaceWall {
     normal[i] = n;
     back[i] = turned(pose.turn, start_back[k]);
     velocity[i] = quad(to_real(v) + xyz(along), along.w);
+    const Vec3d r = x - pose.target, w = pose.angular_velocity;
+    const Vec3d a = pose.acceleration + cross(pose.angular_acceleration, r) + cross(w, cross(w, r));
+    acceleration[i] = quad(to_real(a), 0);
   }
 };
 
@@ -82,6 +85,7 @@ void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
   wall.pressure.upload(std::vector<Real>(n));
   body_.upload(w.body);
   if (!any_) return;
+  wall.acceleration.upload(std::vector<Quad>(n));
   position_.upload(position), normal_.upload(normal), back_.upload(back), velocity_.upload(velocity);
 }
 
@@ -95,6 +99,7 @@ std::vector<WallPose> MovingWalls::poses(double time, double dt) const {
   for (std::size_t b = 0; b < motion_.size(); ++b) {
     if (!motion_[b].moves()) continue;
     const BodyPose now = motion_[b].pose(time), then = motion_[b].pose(time + dt);
+    const BodyPose gain = motion_[b].acceleration(time + dt / 2);
     WallPose& pose = result[b];
     pose.moves = true;
     pose.removed = removed(b, time);
@@ -103,6 +108,7 @@ std::vector<WallPose> MovingWalls::poses(double time, double dt) const {
     pose.target = pose.center + now.shift;
     pose.velocity = (then.shift - now.shift) * (1 / dt);
     pose.angular_velocity = (then.turn - now.turn) * (1 / dt);
+    pose.acceleration = gain.shift, pose.angular_acceleration = gain.turn;
   }
   return result;
 }
@@ -118,7 +124,7 @@ void MovingWalls::place(double time, double dt, WallArrays& wall) {
   launch(context_, "place walls", wall.count,
          PlaceWall{pose_.span(), body_.span(), position_.span(), normal_.span(), back_.span(),
                    velocity_.span(), wall.id.span(), wall.place.span(), wall.normal.span(), wall.back.span(),
-                   wall.velocity.span()});
+                   wall.velocity.span(), wall.acceleration.span()});
 }
 
 Vec3d MovingWalls::position_at(Vec3d position, std::size_t body, double time) const {

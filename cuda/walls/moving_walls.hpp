@@ -11,8 +11,9 @@ namespace slagflow {
 struct WallPose {
   bool moves = false, removed = false;
   Rotation turn;
-  Vec3d center, target;              // [m] center of rotation, at the start and now
-  Vec3d velocity, angular_velocity;  // [m/s], [rad/s]
+  Vec3d center, target;                      // [m] center of rotation, at the start and now
+  Vec3d velocity, angular_velocity;          // [m/s], [rad/s]
+  Vec3d acceleration, angular_acceleration;  // [m/s^2], [rad/s^2]
 };
 
 class MovingWalls {
@@ -28,7 +29,8 @@ class MovingWalls {
   bool vanishes(double after, double until) const;
 
   // Puts the walls where they are at `time`, with the velocity that takes them to where they are at
-  // time + dt. Particles of walls that have vanished are marked in place.w; the next sort drops them.
+  // time + dt, and the acceleration of the middle of the step. Particles of
+  // walls that have vanished are marked in place.w; the next sort drops them.
   void place(double time, double dt, WallArrays&);
 
   // Where a particle that starts at `position` [m] is at `time`; the body's index.

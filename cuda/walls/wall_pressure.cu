@@ -16,7 +16,7 @@ struct WallPressure {
   Span<Real> pressure;
 
   HOST_DEVICE void operator()(Index w) const {
-    const LaneVec3 x = in_lanes(xyz(c.wall.place[w])), gravity = in_lanes(c.flow.gravity);
+    const LaneVec3 x = in_lanes(xyz(c.wall.place[w])), gravity = in_lanes(felt_gravity(w));
     const Offset first = list.row(w);
     const Index entries = list.length[w];
     Lanes weights = 0, sum = 0;
@@ -29,6 +29,10 @@ struct WallPressure {
     }
     const Real all = total(weights);
     pressure[w] = all > 0 ? larger(total(sum) / all, -c.flow.tension_limit) : Real(0);
+  }
+
+  HOST_DEVICE Vec3 felt_gravity(Index w) const {
+    return c.wall.acceleration.size > 0 ? c.flow.gravity - xyz(c.wall.acceleration[w]) : c.flow.gravity;
   }
 
   HOST_DEVICE Lanes density(const Index* f) const {

@@ -152,6 +152,7 @@ class Scene {
   Ordering ordering;
   NeighbourList fluid_list, wall_list, wall_to_fluid;
   DepartureCounts departed;
+  bool walls_accelerate = false;
 
  private:
   static SimulationSetup make_setup(const SceneOptions& o) {
@@ -261,7 +262,7 @@ class Scene {
   }
 
   void upload_walls() {
-    std::vector<Quad> place, normal, back, velocity;
+    std::vector<Quad> place, normal, back, velocity, acceleration;
     std::vector<Index> id;
     std::vector<Real> pressure;
     for (reference::Wall& w : world.walls) {
@@ -270,12 +271,14 @@ class Scene {
       place.push_back(to_device(w.x, 0)), normal.push_back(to_device(w.normal, w.depth));
       back.push_back(to_device(w.back_normal, w.back_depth));
       velocity.push_back(to_device(w.v, w.sticks ? w.slip_length : -1));
+      w.acceleration = rounded(w.acceleration), acceleration.push_back(to_device(w.acceleration, 0));
       pressure.push_back(static_cast<Real>(w.pressure)), id.push_back(static_cast<Index>(id.size()));
     }
     wall.resize(static_cast<Index>(id.size()));
     wall.place.upload(place), wall.normal.upload(normal), wall.back.upload(back),
         wall.velocity.upload(velocity);
     wall.pressure.upload(pressure), wall.id.upload(id);
+    if (walls_accelerate) wall.acceleration.upload(acceleration);
   }
 
   template <class T>

@@ -41,6 +41,27 @@ TEST_P(Density, RateMatchesOracle) {
   }
 }
 
+// A wall that accelerates enters with the velocity that it had a step ago.
+TEST_P(Density, RateMatchesOracleWhereWallsAccelerate) {
+  Random random(3);
+  for (auto& wall : scene_.world.walls) {
+    const Vec3d a = random.vector(200);
+    wall.acceleration = {a.x, a.y, a.z};
+  }
+  scene_.walls_accelerate = true;
+  const double dt = 1e-3;
+  advance(dt);
+  reference::World before = scene_.world;
+  for (auto& wall : before.walls) wall.v = wall.v - dt * wall.acceleration;
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    const auto& p = scene_.world.particles[i];
+    const reference::Sum rate = reference::density_rate(before, i);
+    EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + dt * rate.value.x,
+                rounding * dt * rate.size + 2 * epsilon * std::fabs(p.excess))
+        << "particle " << i;
+  }
+}
+
 TEST_P(Density, ShearRateMatchesOracle) {
   for (auto& wall : scene_.world.walls) wall.v = {0.2, 0, -0.1};
   advance(1e-3);

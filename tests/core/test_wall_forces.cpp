@@ -49,7 +49,7 @@ void solve_well(SimulationSetup& s, const Scheme& scheme) {
   s.numerics.explicit_part = scheme.explicit_part;
   s.numerics.viscous_step = scheme.stepping;
   s.numerics.yield = scheme.yield;
-  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
+  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000, s.numerics.yield_iterations = 2000;
 }
 
 class WallForcesOf : public testing::TestWithParam<Scheme> {};

@@ -85,6 +85,32 @@ TEST(WallMotion, NothingIsFasterThanItsBound) {
   }
 }
 
+// Against second differences of the pose, in the middle of each stretch.
+TEST(WallMotion, AccelerationIsThatOfThePose) {
+  WallMotion table = motion(MotionKind::table);
+  table.time = {0, 1, 3, 4}, table.displacement = {{}, {1, 0, 0}, {1, 2, 0}, {0, 4, 0}};
+  table.angle = {0, 0.5, 0.5, 0}, table.axis = {0, 3, 4};
+  WallMotion smooth = table;
+  smooth.interpolation = Interpolation::smooth;
+  WallMotion sine = motion(MotionKind::sine);
+  sine.amplitude = {1, 2, 0}, sine.angular_amplitude = {0, 0.2, 1}, sine.frequency = 0.7, sine.phase = 0.4;
+  sine.start = 0.3;
+  WallMotion ramp = motion(MotionKind::ramp);
+  ramp.velocity = {0, 0, 3}, ramp.angular_velocity = {1, 2, 0}, ramp.ramp_time = 1.7, ramp.stop = 3.6;
+  WallMotion constant = motion(MotionKind::constant);
+  constant.velocity = {1, 2, 3}, constant.stop = 3;
+  const double d = 1e-4;
+  double largest = 0;
+  for (const WallMotion& m : {table, smooth, sine, ramp, constant})
+    for (double t = 0.05; t < 5; t += 0.1) {
+      const BodyPose before = m.pose(t - d), now = m.pose(t), after = m.pose(t + d), a = m.acceleration(t);
+      expect_near(a.shift, (after.shift - 2.0 * now.shift + before.shift) * (1 / (d * d)), 1e-5);
+      expect_near(a.turn, (after.turn - 2.0 * now.turn + before.turn) * (1 / (d * d)), 1e-5);
+      largest = std::max(largest, norm(a.shift) + norm(a.turn));
+    }
+  EXPECT_GT(largest, 10);
+}
+
 TEST(WallMotion, RotationIsRightHanded) {
   expect_near(rotation({0, 0, pi / 2}) * Vec3d{1, 0, 0}, {0, 1, 0});
   expect_near(rotation({0, 2 * pi / 3, 0}) * Vec3d{0, 0, 1}, {std::sin(2 * pi / 3), 0, std::cos(2 * pi / 3)});
@@ -118,6 +144,32 @@ TEST(MovingWalls, PlacesAndVelocitiesAreThoseOfTheRotation) {
   expect_near(to_double(xyz(velocity[1])), Vec3d{0, -2 * 0.065, 0.1}, 1e-6);
   EXPECT_NEAR(walls.largest_speed(), 0.3, 1e-6);  // at most 0.1 + 2 * 0.1
   EXPECT_NEAR(walls.largest_displacement(0, 0.1), 0.1 * 0.1 + 0.2 * 0.1, 1e-6);
+}
+
+// A block that is pushed and turned ever faster: second differences of its particles' places.
+TEST(MovingWalls, AccelerationsAreThoseOfTheParticles) {
+  SimulationSetup s = empty_setup({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  s.bodies.push_back({"floor", WallSlip::no_slip});
+  WallMotion& m = s.bodies[0].motion = motion(MotionKind::ramp);
+  m.velocity = {1, 0, -2}, m.angular_velocity = {3, 0, 5}, m.ramp_time = 2, m.center = {0.1, 0, 0};
+  for (const Vec3d x : {Vec3d{0.2, 0, 0}, Vec3d{0.1, 0.05, 0.01}, Vec3d{-0.3, 0.2, 0.1}})
+    add_wall(s, x, {1, 0, 0}, 0.005);
+  s.walls.body.back() = 1;
+  Context context;
+  WallArrays wall(context);
+  MovingWalls walls(context);
+  walls.upload(s, wall);
+  const double time = 0.7, dt = 1e-6, d = 1e-4;
+  walls.place(time, dt, wall);
+  std::vector<Quad> acceleration;
+  wall.acceleration.download(acceleration);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t body = s.walls.body[i];
+    const auto at = [&](double t) { return walls.position_at(s.walls.position[i], body, t); };
+    const Vec3d wanted = (at(time + d) - 2.0 * at(time) + at(time - d)) * (1 / (d * d));
+    expect_near(to_double(xyz(acceleration[i])), wanted, 1e-5);
+    EXPECT_EQ(norm(wanted) > 0.1, body == 0);
+  }
 }
 
 TEST(MovingWalls, AWallThatVanishesLeavesTheSort) {

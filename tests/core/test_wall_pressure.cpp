@@ -30,6 +30,35 @@ TEST_P(WallPressure, MatchesOracle) {
   }
 }
 
+TEST_P(WallPressure, MatchesOracleWhereWallsAccelerate) {
+  Scene scene(GetParam());
+  Random random(7);
+  for (auto& w : scene.world.walls) {
+    const Vec3d a = random.vector(50);
+    w.acceleration = {a.x, a.y, a.z};
+  }
+  scene.walls_accelerate = true;
+  const auto pressure = extrapolate(scene);
+  int changed = 0;
+  for (std::size_t w = 0; w < pressure.size(); ++w) {
+    reference::Wall wall = scene.world.walls[w];
+    const reference::Sum wanted = reference::wall_pressure(scene.world, wall);
+    EXPECT_NEAR(static_cast<double>(pressure[w]), wanted.value.x, rounding * wanted.size)
+        << "wall particle " << w;
+    wall.acceleration = {};
+    if (std::fabs(reference::wall_pressure(scene.world, wall).value.x - wanted.value.x) > 100) ++changed;
+  }
+  EXPECT_GT(changed, 5);
+}
+
+// A wall at rest among others that move: the same bits as where none ever does.
+TEST_P(WallPressure, IsTheSameOfWallsAtRest) {
+  Scene scene(GetParam());
+  const auto alone = extrapolate(scene);
+  scene.walls_accelerate = true;
+  EXPECT_EQ(extrapolate(scene), alone);
+}
+
 TEST_P(WallPressure, IsCutOffAtTheTensionLimit) {
   Scene scene(GetParam());
   for (auto& p : scene.world.particles) p.pressure = -500;

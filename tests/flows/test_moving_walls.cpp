@@ -76,5 +76,50 @@ TEST(MovingWalls, AGateHoldsAndOpens) {
   EXPECT_GT(flow.simulation().totals().fronts[0].passed, 0);
 }
 
+// Least squares: pressure = mean + slope.(x - mean place), and the rms of what is left.
+struct LinearPressure {
+  double mean = 0, along = 0, up = 0, rest = 0;
+
+  explicit LinearPressure(const FluidSnapshot& s) {
+    const auto n = static_cast<double>(s.position.size());
+    double x0 = 0, z0 = 0;
+    for (std::size_t i = 0; i < s.position.size(); ++i)
+      mean += static_cast<double>(s.pressure[i]) / n, x0 += s.position[i].x / n, z0 += s.position[i].z / n;
+    double xx = 0, xz = 0, zz = 0, xp = 0, zp = 0;
+    for (std::size_t i = 0; i < s.position.size(); ++i) {
+      const double x = s.position[i].x - x0, z = s.position[i].z - z0;
+      const double p = static_cast<double>(s.pressure[i]) - mean;
+      xx += x * x, xz += x * z, zz += z * z, xp += x * p, zp += z * p;
+    }
+    along = (xp * zz - zp * xz) / (xx * zz - xz * xz), up = (zp * xx - xp * xz) / (xx * zz - xz * xz);
+    for (std::size_t i = 0; i < s.position.size(); ++i) {
+      const double linear = mean + along * (s.position[i].x - x0) + up * (s.position[i].z - z0);
+      rest += square(static_cast<double>(s.pressure[i]) - linear) / n;
+    }
+    rest = std::sqrt(rest);
+  }
+};
+
+// Pressure of the effective gravity; the walls push with mass times acceleration and bear the weight.
+TEST(MovingWalls, OilInABoxThatAcceleratesHasTheEffectiveGravity) {
+  Flow flow("verification/accelerated_box.toml");
+  const double density = 1000, side = 0.02, mass = density * side * side, a = 5;
+  flow.run(0.06);
+  const Totals begin = flow.simulation().totals();
+  const double start = flow.simulation().time();
+  flow.run(0.1);
+  const Vec3d force = force_of(begin, flow.simulation().totals(), 0, flow.simulation().time() - start);
+  const LinearPressure p(flow.snapshot());
+  std::printf(
+      "force %.4f of -m a, %.4f of the weight; slopes %.4f and %.4f of rho (a, g), rest %.4f of rho a L\n",
+      force.x / (-mass * a), -force.z / (mass * g), p.along / (-density * a), -p.up / (density * g),
+      p.rest / (density * a * side));
+  EXPECT_NEAR(force.x / (-mass * a), 1, 0.03);
+  EXPECT_NEAR(-force.z / (mass * g), 1, 0.03);
+  EXPECT_NEAR(p.along / (-density * a), 1, 0.03);
+  EXPECT_NEAR(-p.up / (density * g), 1, 0.03);
+  EXPECT_LT(p.rest / (density * a * side), 0.03);
+}
+
 }  // namespace
 }  // namespace slagflow
