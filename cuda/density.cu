@@ -80,13 +80,17 @@ struct DensityAndShear {
       const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
       sums.divergence += share;
       // The fluid still has the velocity of the last step; so must the wall, that they keep their distance.
-      if (c.wall.acceleration.size > 0)
-        sums.divergence += weight * (Lanes(dt) * dot(xyz(gather(c.wall.acceleration, j)), d));
+      Lanes rest = dot(hydrostatic, d);
+      if (c.wall.acceleration.size > 0) {
+        const Lanes moved = dot(xyz(gather(c.wall.acceleration, j)), d);
+        sums.divergence += weight * (Lanes(dt) * moved);
+        rest -= centre.slope * moved;
+      }
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure / c.flow.sound_speed_squared - centre.excess;
       sums.diffusion -= select(pressure > Lanes(-c.flow.tension_limit),
-                               weight * (difference + dot(hydrostatic, d)), Lanes(0));
+                               weight * (difference + rest), Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.

@@ -145,8 +145,9 @@ inline Sum density_rate(const World& w, std::size_t i) {
   for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
     pair(d, j.volume, j.v, j.excess, -0.5 * (p.by_pressure + j.by_pressure));
   });
-  for_wall_pairs(w, i,
-                 [&](const Wall& j, Vec d) { pair(d, w.wall_volume(), j.v, j.pressure / c2, w.gravity); });
+  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
+    pair(d, w.wall_volume(), j.v, j.pressure / c2, w.gravity - j.acceleration);
+  });
   return sum;
 }
 

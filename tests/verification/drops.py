@@ -60,6 +60,13 @@ def frequency(result):
     return min(tried, key=lambda pair: misfit(*pair)), (exact, damping)
 
 
+def filled(points, x, spacing):
+    """How much of the surroundings of points in the x-z plane is fluid, of particles at x."""
+    h = SUPPORT * spacing
+    q = np.minimum(np.linalg.norm(points[:, None] - x[None], axis=2) / h, 1)
+    return 5 / np.pi / h**2 * spacing**2 * np.sum((1 + 3 * q) * (1 - q)**3, axis=1)
+
+
 def outline(state, spacing):
     """Where the smoothed fluid falls to one half, on rays from the middle of the base, above the support radius."""
     h, x = SUPPORT * spacing, state.position[:, [0, 2]]
@@ -67,9 +74,7 @@ def outline(state, spacing):
     points = []
     for angle in np.linspace(0, np.pi, 31):
         ray = centre + np.arange(0, 0.03, spacing / 5)[:, None] * np.array([np.cos(angle), np.sin(angle)])
-        q = np.minimum(np.linalg.norm(ray[:, None] - x[None], axis=2) / h, 1)
-        filled = 5 / np.pi / h**2 * spacing**2 * np.sum((1 + 3 * q) * (1 - q)**3, axis=1)
-        inside = np.nonzero(filled > 0.5)[0]
+        inside = np.nonzero(filled(ray, x, spacing) > 0.5)[0]
         if len(inside) and ray[inside[-1], 1] > h:
             points.append(ray[inside[-1]])
     return np.array(points)
