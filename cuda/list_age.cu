@@ -95,6 +95,8 @@ ListAge::ListAge(Context& context)
       wall_displacement_(context, "cell displacements of walls"),
       approach_(context, "approach of cells", 1) {}
 
+void ListAge::reserve(const CellGrid& grid) { displacement_.resize(grid.cells()); }
+
 void ListAge::launch_approach(const Moves& moves, const MovedParticles& fluid, const MovedParticles& walls,
                               const ListReach& reach) {
   const Index cells = fluid.now.grid.cells();

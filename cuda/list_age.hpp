@@ -33,8 +33,9 @@ class ListAge {
 
   bool lists_hold(const MovedParticles& fluid, const MovedParticles& walls, const ListReach&);
 
-  // The same without waiting, with walls at rest: leaves the approach in the record, and is idle where the
-  // record's displacement alone decides. Then the record decides.
+  // The same without waiting or, after reserve(), taking memory, with walls at rest: leaves the approach in
+  // the record, and is idle where the record's displacement alone decides. Then the record decides.
+  void reserve(const CellGrid&);
   void launch_approach(SourceView fluid, Span<const Quad> start, Span<const Index> wall_start,
                        const ListReach&, StepRecord*);
   static bool lists_hold(const StepRecord&, const ListReach&);

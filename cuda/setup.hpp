@@ -161,6 +161,7 @@ struct SimulationSetup {
   std::vector<BoxSetup> boxes;
   std::vector<LineSetup> lines;
   bool measure_walls = false;  // the forces on walls; they are known without it where walls move
+  bool time_parts = false;     // times each part of a step: a CUDA build launches it kernel by kernel
 };
 
 }  // namespace slagflow

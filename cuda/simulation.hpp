@@ -129,7 +129,7 @@ class Simulation {
   std::int64_t list_builds() const;
   std::size_t device_bytes() const;               // memory held on the device
   std::map<std::string, double> timings() const;  // [s] by part of the step
-  std::int64_t waits() const;                     // how often the host has waited for the device
+  DeviceCounts device_counts() const;             // what the host has asked of the device
 
   // The whole state, and back: a simulation made from the same setup and restored goes on to the same bits.
   // Throws Error when the state does not belong to the setup or to this build's precision.

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "backend/launch_graph.hpp"
 #include "constants.hpp"
 #include "density.hpp"
 #include "diagnostics.hpp"
@@ -54,6 +55,7 @@ struct Simulation::State {
   DepartureCounts departed;
   SolveReport report;
   SolverTotals solver;
+  LaunchGraph step_graph;
 
   void upload_fluid();
   void upload_walls();
@@ -67,7 +69,8 @@ struct Simulation::State {
   double kick();
   void choose_time_step();
   ViscousStep::Step viscous_step();
-  void begin_solve();
+  void reserve_step();
+  void launch_step();
   SolveResult finish_solve(const StepRecord&);
   void launch_move();
   StepRecord solve_and_move();

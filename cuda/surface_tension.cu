@@ -207,12 +207,16 @@ CapillaryView SurfaceTension::view() const {
   return {normal_stress_.span(), shear_stress_.span(), wall_normal_.span(), wall_traction_.span()};
 }
 
+void SurfaceTension::reserve(Index count) {
+  if (!on_) return;
+  normal_stress_.resize(count), shear_stress_.resize(count);
+  wall_normal_.resize(count), wall_traction_.resize(count), acceleration_.resize(count);
+}
+
 void SurfaceTension::update(const PairContext& c, Span<const Index> wall_id) {
   if (!on_) return;
   Section timer(context_, "surface tension");
   const Index n = c.fluid.count;
-  normal_stress_.resize(n), shear_stress_.resize(n), wall_normal_.resize(n), wall_traction_.resize(n);
-  acceleration_.resize(n);
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
   const TensionWeight weight(c.flow.support, c.flow.dimensions);
   const auto noise = static_cast<Real>(colour_noise) / c.flow.support;

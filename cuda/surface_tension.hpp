@@ -65,7 +65,9 @@ class SurfaceTension {
   SurfaceTension(Context&, const SimulationSetup&);
 
   bool on() const { return on_; }
-  // Sets stress and acceleration. `wall_id`: id of each wall particle.
+  // Takes the memory for so many fluid particles.
+  void reserve(Index count);
+  // Sets stress and acceleration, after reserve(). `wall_id`: id of each wall particle.
   void update(const PairContext&, Span<const Index> wall_id);
   Span<const Quad> acceleration() const { return acceleration_.span(); }  // xyz [m/s^2]
   CapillaryView view() const;

@@ -117,7 +117,7 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       multigrid_(c),
       yield_(c) {}
 
-void ViscousStep::resize(Index count, Offset pair_capacity) {
+void ViscousStep::reserve(Index count, Offset pair_capacity) {
   constexpr Offset margin_percent = 1;
   predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
   wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
@@ -132,14 +132,13 @@ LinearSystem ViscousStep::system(const PairContext& c) const {
 
 SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
                                  Offset pair_capacity, FluidArrays& fluid) {
-  begin(c, step, pair_capacity, fluid);
+  reserve(fluid.count, pair_capacity);
+  begin(c, step, fluid);
   return finish(read(), c, rows, step, fluid);
 }
 
-void ViscousStep::begin(const PairContext& whole, const Step& step, Offset pair_capacity,
-                        FluidArrays& fluid) {
+void ViscousStep::begin(const PairContext& whole, const Step& step, FluidArrays& fluid) {
   const Index n = fluid.count;
-  resize(n, pair_capacity);
   if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step));
   const PairContext c = as_solved(whole);
   const auto theta = static_cast<Real>(is_explicit() ? 1 : numerics_.theta);

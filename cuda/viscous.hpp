@@ -27,11 +27,16 @@ class ViscousStep {
   };
   SolveResult advance(const PairContext&, const RowCells&, const Step&, Offset pair_capacity, FluidArrays&);
 
-  // The same in two parts. begin() waits for nothing; what comes behind it and is idle unless the solve has
-  // converged may be launched at once. finish() is told what read() gave, and when that had not converged,
-  // goes on until it has: then what was idle is to be launched again.
-  void begin(const PairContext&, const Step&, Offset pair_capacity, FluidArrays&);
+  // The same in parts. reserve() takes the memory (but that of an exact yield stress). begin()
+  // waits for nothing; what comes behind it and is idle
+  // unless the solve has converged may be launched at once. finish() is told what read() gave, and when that
+  // had not converged, goes on until it has: then what was idle is to be launched again. post() is the first
+  // part of a read(), which is read_posted() then.
+  void reserve(Index count, Offset pair_capacity);
+  void begin(const PairContext&, const Step&, FluidArrays&);
   StepRecord read() { return work_.read(context_); }
+  void post() { work_.post(context_); }
+  StepRecord read_posted() { return work_.read_posted(context_); }
   SolveResult finish(const StepRecord& now, const PairContext&, const RowCells&, const Step&, FluidArrays&);
   StepRecord* record() { return work_.record.span().data; }
 
@@ -64,7 +69,6 @@ class ViscousStep {
   Real augmentation(const PairContext&, const Step&) const;
   SolveResult solve_exact(const LinearSystem&, const PairContext&, const RowCells&, const Step&,
                           Buffer<Quad>& increment);
-  void resize(Index count, Offset pair_capacity);
 
   Context& context_;
   NumericsSetup numerics_;

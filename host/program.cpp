@@ -76,6 +76,8 @@ void add_loop_options(CLI::App* command, RunOptions& run) {
   command->add_option("--until", run.until, "end at this simulated time [s]")->check(CLI::PositiveNumber);
   command->add_flag_callback(
       "--quiet", [&run] { run.verbosity = Verbosity::quiet; }, "only warnings and errors on stderr");
+  command->add_flag("--time-parts", run.time_parts,
+                    "CUDA build: time each part of a step, which makes it slower");
 }
 
 void add_run_options(CLI::App* command, RunOptions& run) {

@@ -56,6 +56,7 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   const std::string folder = run_folder(c, options);
   require_free_folder(folder, options.overwrite);
   BuiltCase built = build_setup(limited);
+  built.setup.time_parts = options.time_parts;
   const double on_device = device_info().memory;
   require_memory(built, on_device > 0 ? on_device : available_memory());
 
@@ -83,7 +84,9 @@ RunOutcome resume_run(const RunOptions& options) {
 
   Log log(options.verbosity);
   log.open(folder + "/log.txt", std::ios::app);
-  Run run(build_setup(c), folder, log);
+  BuiltCase built = build_setup(c);
+  built.setup.time_parts = options.time_parts;
+  Run run(std::move(built), folder, log);
   for (const std::string& reason : found.damaged) log.warning(reason + "; the previous one is used");
   warn_of_other_version(found, log);
   const RunRecord at = found.checkpoint.run;

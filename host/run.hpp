@@ -16,6 +16,7 @@ struct RunOptions {
   std::string folder;           // empty: runs/<case name>
   std::optional<double> until;  // [s] ends the run then instead of at output.end_time
   int threads = 0;              // CPU build; 0: as OpenMP has it
+  bool time_parts = false;      // CUDA build: kernel by kernel, so that summary.json tells each part's time
   Verbosity verbosity = Verbosity::normal;
   Overwrite overwrite = Overwrite::refuse;
 };

@@ -55,7 +55,10 @@ void add_cost(Json& summary, const Simulation& simulation, const RunCounts& coun
   const std::size_t bytes = simulation.device_bytes();
   const auto particles = static_cast<double>(std::max<std::int64_t>(counts.particles_start, 1));
   summary.set("peak_memory_bytes", peak_memory()).set("device_bytes", bytes);
-  summary.set("device_waits", simulation.waits());
+  const DeviceCounts device = simulation.device_counts();
+  summary.set("device_waits", device.waits).set("device_launches", device.launches);
+  summary.set("device_graph_launches", device.graph_launches);
+  summary.set("device_graph_kernels", device.graph_kernels);
   summary.set("device_bytes_per_particle", static_cast<double>(bytes) / particles);
   Json timings = Json::object();
   for (const auto& [part, seconds] : simulation.timings()) timings.set(part, seconds);

@@ -69,11 +69,14 @@ class Model(unittest.TestCase):
 
     def test_a_launch_takes_its_slowest_part_and_a_wait_is_added(self):
         kernel = {"launches": 2, "warp_instructions": 0, "fp64": 0, "sectors": 0, "memory_sectors": 1000}
-        counts = {"fluid": 100, "waits_per_step": 1, "kernels": [kernel]}
+        counts = {"fluid": 100, "waits_per_step": 1, "graph_kernels_per_step": 0, "kernels": [kernel]}
         memory = 1000 * 1000 * 32 / 900e9 / device_model.ATTAINED
         self.assertAlmostEqual(device_model.step_time("V100", 100000, counts), device_model.WAIT + memory)
         smallest = device_model.WAIT + 2 * device_model.LAUNCH
         self.assertAlmostEqual(device_model.step_time("V100", 100, counts), smallest)
+        in_graph = device_model.WAIT + device_model.NODE + device_model.LAUNCH
+        counts["graph_kernels_per_step"] = 1
+        self.assertAlmostEqual(device_model.step_time("V100", 100, counts), in_graph)
 
     def test_measured_stands_beside_predicted(self):
         counts = device_model.read_counts()

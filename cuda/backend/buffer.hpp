@@ -36,6 +36,7 @@ class Buffer {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
     std::swap(capacity_, other.capacity_);
+    context_->arrange_anew();
   }
 
   // Contents are lost when the capacity grows; it grows with a margin so that growth is rare.
@@ -48,6 +49,7 @@ class Buffer {
       data_ = static_cast<T*>(context_->allocate(bytes(wanted), name_));
       capacity_ = wanted;
     }
+    if (size != size_) context_->arrange_anew();
     size_ = size;
   }
 

@@ -1,4 +1,4 @@
-// The execution context: one stream, one workspace, memory accounting and timers by label.
+// The execution context: one stream, one workspace, memory accounting, counts and timers by label.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,8 @@
 #include <map>
 #include <memory>
 #include <string>
+
+#include "backend/device.hpp"
 
 namespace slagflow {
 
@@ -32,10 +34,21 @@ class Context {
   void copy_to_host(void* host, const void* device, std::size_t bytes);
   void copy_on_device(void* to, const void* from, std::size_t bytes);
   void synchronize();
-  // How often the host has waited for the device; copies to the host count on a CPU, too.
-  std::int64_t waits() const { return waits_; }
+  // The same as copy_to_host() in two parts, so that the first can be recorded: at most posted_bytes, with no
+  // other copy to the host in between.
+  static constexpr std::size_t posted_bytes = 1024;
+  void post_to_host(const void* device, std::size_t bytes);
+  void read_posted(void* host, std::size_t bytes);
 
-  // Timers; on CUDA they are events on the stream and NVTX ranges, and cost no synchronisation.
+  const DeviceCounts& counts() const { return counts_; }
+  void count_launch() { ++(recording_ ? recorded_launches_ : counts_.launches); }
+
+  // Changes whenever memory is taken or given back, or a buffer gets another size or place.
+  std::uint64_t generation() const { return generation_; }
+  void arrange_anew() { ++generation_; }
+
+  // Timers; on CUDA they are events on the stream and NVTX ranges, and cost no synchronisation. What is
+  // recorded for a graph is not timed.
   void begin(const char* label);
   void end(const char* label);
   std::map<std::string, double> timings();  // [s] by label
@@ -43,10 +56,16 @@ class Context {
   void* stream() const;  // the back end's own stream handle
 
  private:
+  friend class LaunchGraph;
+  void forbid_while_recording(const char* what) const;
+
   struct Native;
   std::unique_ptr<Native> native_;
   std::size_t allocated_ = 0;
-  std::int64_t waits_ = 0;
+  DeviceCounts counts_;
+  bool recording_ = false;
+  std::int64_t recorded_launches_ = 0;
+  std::uint64_t generation_ = 0;
   void* workspace_ = nullptr;
   std::size_t workspace_bytes_ = 0;
   void* ticket_ = nullptr;

@@ -10,6 +10,7 @@
 #include "backend/context.hpp"
 #include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "backend/launch_graph.hpp"
 
 namespace slagflow {
 
@@ -21,6 +22,7 @@ struct Context::Native {
     double total = 0;
   };
   std::map<std::string, Timer> timers;
+  char posted[posted_bytes];
 };
 
 Context::Context() : native_(std::make_unique<Native>()) {}
@@ -37,6 +39,7 @@ void* Context::allocate(std::size_t bytes, const char* what) {
     throw Error("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
                 std::to_string(allocated_) + " are in use");
   allocated_ += bytes;
+  arrange_anew();
   return memory;
 }
 
@@ -44,6 +47,7 @@ void Context::release(void* memory, std::size_t bytes) noexcept {
   if (!memory) return;
   std::free(memory);
   allocated_ -= bytes;
+  arrange_anew();
 }
 
 void* Context::workspace(std::size_t bytes) {
@@ -62,8 +66,12 @@ void Context::copy_to_device(void* device, const void* host, std::size_t bytes) 
   if (bytes) std::memcpy(device, host, bytes);
 }
 void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
-  if (bytes) std::memcpy(host, device, bytes), ++waits_;
+  if (bytes) std::memcpy(host, device, bytes), ++counts_.waits;
 }
+void Context::post_to_host(const void* device, std::size_t bytes) {
+  std::memcpy(native_->posted, device, bytes);
+}
+void Context::read_posted(void* host, std::size_t bytes) { copy_to_host(host, native_->posted, bytes); }
 void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
   constexpr std::size_t piece = 1 << 18;  // bytes that one thread copies at a time
 #pragma omp parallel for schedule(static) if (bytes > piece)
@@ -87,6 +95,12 @@ std::map<std::string, double> Context::timings() {
 }
 
 void* Context::stream() const { return nullptr; }
+
+struct LaunchGraph::Native {};
+
+LaunchGraph::LaunchGraph(Context& context, const char* label) : context_(context), label_(label) {}
+LaunchGraph::~LaunchGraph() = default;
+void LaunchGraph::run(const Numbers&, const std::function<void()>& record) { record(); }
 
 DeviceInfo device_info() {
   DeviceInfo info{"cpu", "unknown processor", omp_get_max_threads(), 0};

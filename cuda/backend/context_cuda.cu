@@ -14,7 +14,6 @@ struct Context::Native {
     bool pending = false;
     double total = 0;
   };
-  static constexpr std::size_t staging_bytes = 1024;
   cudaStream_t stream = nullptr;
   void* staging = nullptr;  // pinned memory of the host
   std::map<std::string, Timer> timers;
@@ -32,7 +31,7 @@ struct Context::Native {
 
 Context::Context() : native_(std::make_unique<Native>()) {
   check(cudaStreamCreateWithFlags(&native_->stream, cudaStreamNonBlocking), "stream create");
-  check(cudaMallocHost(&native_->staging, Native::staging_bytes), "pinned memory");
+  check(cudaMallocHost(&native_->staging, posted_bytes), "pinned memory");
 }
 
 Context::~Context() {
@@ -48,6 +47,7 @@ Context::~Context() {
 
 void* Context::allocate(std::size_t bytes, const char* what) {
   if (bytes == 0) return nullptr;
+  forbid_while_recording(what);
   void* memory = nullptr;
   const cudaError_t status = cudaMalloc(&memory, bytes);
   if (status == cudaErrorMemoryAllocation) {
@@ -57,6 +57,7 @@ void* Context::allocate(std::size_t bytes, const char* what) {
   }
   check(status, what);
   allocated_ += bytes;
+  arrange_anew();
   return memory;
 }
 
@@ -64,6 +65,7 @@ void Context::release(void* memory, std::size_t bytes) noexcept {
   if (!memory) return;
   cudaFree(memory);
   allocated_ -= bytes;
+  arrange_anew();
 }
 
 void* Context::workspace(std::size_t bytes) {
@@ -87,21 +89,31 @@ void* Context::ticket() {
 
 void Context::copy_to_device(void* device, const void* host, std::size_t bytes) {
   if (!bytes) return;
+  forbid_while_recording("copy to device");
   check(cudaMemcpyAsync(device, host, bytes, cudaMemcpyHostToDevice, native_->stream), "copy to device");
   synchronize();
 }
 
 void Context::copy_to_host(void* host, const void* device, std::size_t bytes) {
   if (!bytes) return;
-  if (bytes <= Native::staging_bytes) {  // pageable memory would be copied twice, and slowly
-    check(cudaMemcpyAsync(native_->staging, device, bytes, cudaMemcpyDeviceToHost, native_->stream),
-          "copy to host");
-    synchronize();
-    std::memcpy(host, native_->staging, bytes);
+  if (bytes <= posted_bytes) {  // pageable memory would be copied twice, and slowly
+    post_to_host(device, bytes);
+    read_posted(host, bytes);
     return;
   }
+  forbid_while_recording("copy to host");
   check(cudaMemcpyAsync(host, device, bytes, cudaMemcpyDeviceToHost, native_->stream), "copy to host");
   synchronize();
+}
+
+void Context::post_to_host(const void* device, std::size_t bytes) {
+  check(cudaMemcpyAsync(native_->staging, device, bytes, cudaMemcpyDeviceToHost, native_->stream),
+        "copy to host");
+}
+
+void Context::read_posted(void* host, std::size_t bytes) {
+  synchronize();
+  std::memcpy(host, native_->staging, bytes);
 }
 
 void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
@@ -110,12 +122,19 @@ void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
 }
 
 void Context::synchronize() {
-  ++waits_;
+  forbid_while_recording("wait for the device");
+  ++counts_.waits;
   check(cudaStreamSynchronize(native_->stream), "synchronise");
+}
+
+// These end a recording, or worse; they have their place before it.
+void Context::forbid_while_recording(const char* what) const {
+  if (recording_) throw Error(std::string("CUDA: ") + what + ": not possible while launches are recorded");
 }
 
 void Context::begin(const char* label) {
   nvtxRangePushA(label);
+  if (recording_) return;
   auto& timer = native_->timers[label];
   if (!timer.start) {
     check(cudaEventCreate(&timer.start), "event create");
@@ -127,6 +146,7 @@ void Context::begin(const char* label) {
 
 void Context::end(const char* label) {
   nvtxRangePop();
+  if (recording_) return;
   auto& timer = native_->timers[label];
   // A failed launch has been or will be reported by its own check; a destructor must not throw.
   timer.pending = cudaEventRecord(timer.stop, native_->stream) == cudaSuccess;

@@ -1,6 +1,7 @@
 // What the program runs on.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace slagflow {
@@ -10,6 +11,15 @@ struct DeviceInfo {
   std::string name;     // processor or GPU
   int threads = 1;      // OpenMP threads of a CPU build
   double memory = 0;    // [bytes] that a GPU has free; 0: the host's memory is used
+};
+
+// What the host has asked of the device. A CPU build launches nothing, and its copies to the host count as
+// waits.
+struct DeviceCounts {
+  std::int64_t waits = 0;           // of the host for the device
+  std::int64_t launches = 0;        // of kernels, one by one
+  std::int64_t graph_launches = 0;  // of graphs, and the kernels in them
+  std::int64_t graph_kernels = 0;
 };
 
 // Throws Error when a CUDA build finds no usable GPU.

@@ -42,6 +42,7 @@ __global__ void run_body(Body body, Index n) {
 template <class Body>
 void launch(Context& context, const char* label, Index n, const Body& body) {
   if (n <= 0) return;
+  context.count_launch();
   run_body<<<blocks_for(n), block_threads, 0, static_cast<cudaStream_t>(context.stream())>>>(body, n);
   check(cudaGetLastError(), label);
 }

@@ -78,6 +78,13 @@ __global__ void run_reduction(Body body, Index n, Finish finish, volatile double
   if (threadIdx.x == 0) finish(own);
 }
 
+// Takes the memory of reductions over up to n elements of up to `terms` terms, so that they can be recorded.
+inline void reserve_reductions(Context& context, Index n, int terms) {
+  const unsigned blocks = n > 0 ? blocks_for(n) : 1;
+  context.workspace(static_cast<std::size_t>(blocks) * static_cast<std::size_t>(terms) * sizeof(double));
+  context.ticket();
+}
+
 // Reduces body(i), Terms<Body::terms> each, over i in [0, n), and runs finish(result) once. Where the body is
 // idle, neither runs.
 template <class Reduction, class Body, class Finish>
@@ -85,12 +92,15 @@ void launch_reduction(Context& context, const char* label, Index n, const Body& 
   const unsigned blocks = n > 0 ? blocks_for(n) : 1;
   auto* partial =
       static_cast<double*>(context.workspace(static_cast<std::size_t>(blocks) * sizeof(Terms<Body::terms>)));
+  context.count_launch();
   run_reduction<Reduction><<<blocks, block_threads, 0, static_cast<cudaStream_t>(context.stream())>>>(
       body, n, finish, partial, static_cast<unsigned*>(context.ticket()));
   check(cudaGetLastError(), label);
 }
 
 #else
+
+inline void reserve_reductions(Context&, Index, int) {}
 
 template <class Body>
 struct StoreTerms {

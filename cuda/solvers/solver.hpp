@@ -23,6 +23,14 @@ struct SolverWorkspace {
     context.copy_to_host(&now, record.span().data, sizeof now);
     return now;
   }
+  // The same in two parts.
+  void post(Context& context) { context.post_to_host(record.span().data, sizeof(StepRecord)); }
+  StepRecord read_posted(Context& context) {
+    static_assert(sizeof(StepRecord) <= Context::posted_bytes);
+    StepRecord now;
+    context.read_posted(&now, sizeof now);
+    return now;
+  }
 
   Buffer<Quad> residual, direction, product;
   Buffer<StepRecord> record;

@@ -1,7 +1,7 @@
 """A model of a step on a GPU, from counts: what the kernels of a step load, store and execute, and what GPUs are published
 to give. It has never been compared with a GPU; scripts/bench --device prints measured beside predicted.
 
-A launch takes as long as the slowest of four things, but no less than one launch after another takes: bytes from
+A kernel takes as long as the slowest of four things, but no less than one after another takes to begin: bytes from
 memory (all that is read one after another, and each gathered array once), sectors through the first cache, warp
 instructions (of PTX, not of machine code), and double precision. A step is the sum over its launches, and for each wait
 of the host the time until the device has work again."""
@@ -26,9 +26,10 @@ GPUS = {
     "A100": (1555e9, 108, 1.41e9, 4, 9.7e12),
     "H100": (3350e9, 132, 1.98e9, 4, 34e12),
 }
-# Assumed: the share of the published rates that a kernel gets, the time from one launch to the next and that of a wait.
+# Assumed, without a source: the share of the published rates that a kernel gets, the time from one launch to the next,
+# from one kernel of a graph to the next, and that of a wait, the launch that follows it included.
 ATTAINED = 0.75
-LAUNCH, WAIT = 2.5e-6, 15e-6  # [s]
+LAUNCH, NODE, WAIT = 2.5e-6, 1.5e-6, 15e-6  # [s]
 GATHERED_ARRAYS = 2           # of 16-byte elements, in a kernel that gathers
 SIZES = (12500, 102000, 1000000, 10000000)
 
@@ -81,7 +82,8 @@ def count(program):
               "fluid": last["particles"]["fluid"], "wall": last["particles"]["wall"],
               "iterations_per_step": round((iterations[1] - iterations[0]) / steps, 3),
               "rebuilds_per_step": round((last["list_builds"] - first["list_builds"]) / steps, 4),
-              "waits_per_step": round((last["device_waits"] - first["device_waits"]) / steps, 3),
+              **{f"{key}_per_step": round((last[f"device_{key}"] - first[f"device_{key}"]) / steps, 3)
+                 for key in ("waits", "graph_launches", "graph_kernels")},
               "kernels": sorted(kernels, key=lambda k: -k["sectors"])}
     COUNTS.write_text(json.dumps(result, indent=1) + "\n")
 
@@ -91,19 +93,23 @@ def read_counts():
 
 
 def step_time(gpu, particles, counts):
-    """Predicted [s]; counts grow with the particles, launches and waits do not."""
+    """Predicted [s]; counts grow with the particles, launches and waits do not. Which kernels are in graphs is not
+    counted, only how many."""
     bandwidth, processors, clock, sectors, double = GPUS[gpu]
     scale = particles / counts["fluid"]
+    launches = sum(kernel["launches"] for kernel in counts["kernels"])
+    in_graphs = counts["graph_kernels_per_step"] / launches
+    begin = in_graphs * NODE + (1 - in_graphs) * LAUNCH
     time = counts["waits_per_step"] * WAIT
     for kernel in counts["kernels"]:
         busy = max(32 * kernel["memory_sectors"] / bandwidth, kernel["sectors"] / (sectors * processors * clock),
                    kernel["warp_instructions"] / (4 * processors * clock), kernel["fp64"] / double) * scale / ATTAINED
-        time += max(busy, kernel["launches"] * LAUNCH)
+        time += max(busy, kernel["launches"] * begin)
     return time
 
 
 def totals(counts):
-    """Per step: launches, waits; per fluid particle and step: bytes loaded and stored, warp instructions."""
+    """Per step: kernels, waits; per fluid particle and step: bytes loaded and stored, warp instructions."""
     kernels = counts["kernels"]
     return (sum(k["launches"] for k in kernels), counts["waits_per_step"],
             sum(32 * k["sectors"] for k in kernels) / counts["fluid"],
@@ -114,7 +120,8 @@ def totals(counts):
 def print_table(counts):
     launches, waits, through, memory, instructions = totals(counts)
     print(f"Model, not measured. Counted in steps {counts['steps'][0]} to {counts['steps'][1]} of {counts['case']}: "
-          f"{launches:.1f} launches and {waits:.2f} waits a step,\n{through:.0f} B through the first cache, "
+          f"{launches:.1f} kernels, {counts['graph_kernels_per_step']:.1f} of them in {counts['graph_launches_per_step']:.2f} "
+          f"graphs, and {waits:.2f} waits a step,\n{through:.0f} B through the first cache, "
           f"{memory:.0f} B from memory and {instructions:.0f} thread instructions a fluid particle and step, "
           f"{counts['iterations_per_step']:.1f} iterations.\n")
     print("| fluid particles | " + " | ".join(GPUS) + " |\n|---|" + "---|" * len(GPUS))

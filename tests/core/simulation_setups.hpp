@@ -60,6 +60,22 @@ inline SimulationSetup dam() {
   return s;
 }
 
+// The dam with a back wall and a floor that move as bodies of their own.
+inline SimulationSetup moving_dam() {
+  SimulationSetup s = dam();
+  s.bodies = {{"floor", WallSlip::no_slip}, {"back", WallSlip::partial_slip}};
+  s.bodies[1].slip_length = 0.5 * dx;
+  s.bodies[0].surface.velocity = {0.2, 0.1, 0};
+  s.bodies[1].motion.kind = MotionKind::sine;
+  s.bodies[1].motion.amplitude = {0.4 * dx, 0, 0.1 * dx}, s.bodies[1].motion.angular_amplitude = {0, 0.1, 0};
+  s.bodies[1].motion.frequency = 20;
+  s.bodies[1].motion.center = {0, 0, 0.03};
+  for (std::size_t i = 0; i < s.walls.position.size(); ++i)
+    s.walls.body[i] = s.walls.position[i].z > 0 ? 1 : 0;
+  s.measure_walls = true;
+  return s;
+}
+
 // Fluid at rest in a tank with a floor and periodic sides, its pressure hydrostatic.
 inline SimulationSetup tank(const FluidSetup& fluid) {
   SimulationSetup s = empty_setup({0, 0, -0.03}, {0.08, 0.08, 0.12});
@@ -77,6 +93,23 @@ inline SimulationSetup tank(const FluidSetup& fluid) {
         }
       }
   return s;
+}
+
+// The same in two dimensions: one layer of it.
+inline SimulationSetup flat_tank(const FluidSetup& fluid) {
+  SimulationSetup setup = tank(fluid), flat = setup;
+  flat.dimensions = 2, flat.particles = {}, flat.walls = {};
+  flat.domain.lower.y = 0, flat.domain.upper.y = dx, flat.domain.periodic = {true, false, false};
+  for (std::size_t i = 0; i < setup.particles.position.size(); ++i) {
+    const Vec3d x = setup.particles.position[i];
+    if (x.y > dx) continue;
+    add_particle(flat, x, {}, 0);
+    flat.particles.pressure.back() = setup.particles.pressure[i];
+  }
+  for (std::size_t i = 0; i < setup.walls.position.size(); ++i)
+    if (setup.walls.position[i].y < dx)
+      add_wall(flat, setup.walls.position[i], setup.walls.normal[i], setup.walls.depth[i]);
+  return flat;
 }
 
 // A free cube that spins about the axis y through its centre.

@@ -111,19 +111,7 @@ TEST(SimulationPhysics, ATankAtRestStaysAtRest) {
 }
 
 TEST(SimulationPhysics, ATankOfTwoDimensionsStaysAtRest) {
-  SimulationSetup setup = tank(oil()), flat = setup;
-  flat.dimensions = 2, flat.particles = {}, flat.walls = {};
-  flat.domain.lower.y = 0, flat.domain.upper.y = dx, flat.domain.periodic = {true, false, false};
-  for (std::size_t i = 0; i < setup.particles.position.size(); ++i) {
-    const Vec3d x = setup.particles.position[i];
-    if (x.y > dx) continue;
-    add_particle(flat, x, {}, 0);
-    flat.particles.pressure.back() = setup.particles.pressure[i];
-  }
-  for (std::size_t i = 0; i < setup.walls.position.size(); ++i)
-    if (setup.walls.position[i].y < dx)
-      add_wall(flat, setup.walls.position[i], setup.walls.normal[i], setup.walls.depth[i]);
-  Simulation simulation(flat);
+  Simulation simulation(flat_tank(oil()));
   advance(simulation, 60);
   const Totals t = simulation.totals();
   EXPECT_EQ(t.particles, 48);

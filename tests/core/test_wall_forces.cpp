@@ -10,22 +10,6 @@ namespace {
 
 using namespace testing_tools;
 
-// The dam with a back wall and a floor that move as bodies of their own.
-SimulationSetup moving_dam() {
-  SimulationSetup s = dam();
-  s.bodies = {{"floor", WallSlip::no_slip}, {"back", WallSlip::partial_slip}};
-  s.bodies[1].slip_length = 0.5 * dx;
-  s.bodies[0].surface.velocity = {0.2, 0.1, 0};
-  s.bodies[1].motion.kind = MotionKind::sine;
-  s.bodies[1].motion.amplitude = {0.4 * dx, 0, 0.1 * dx}, s.bodies[1].motion.angular_amplitude = {0, 0.1, 0};
-  s.bodies[1].motion.frequency = 20;
-  s.bodies[1].motion.center = {0, 0, 0.03};
-  for (std::size_t i = 0; i < s.walls.position.size(); ++i)
-    s.walls.body[i] = s.walls.position[i].z > 0 ? 1 : 0;
-  s.measure_walls = true;
-  return s;
-}
-
 WallLoad sum_of(const std::vector<WallLoad>& walls) {
   WallLoad sum;
   for (const WallLoad& w : walls)
