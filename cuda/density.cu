@@ -89,8 +89,8 @@ struct DensityAndShear {
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure / c.flow.sound_speed_squared - centre.excess;
-      sums.diffusion -= select(pressure > Lanes(-c.flow.tension_limit),
-                               weight * (difference + rest), Lanes(0));
+      sums.diffusion -=
+          select(pressure > Lanes(-c.flow.tension_limit), weight * (difference + rest), Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.

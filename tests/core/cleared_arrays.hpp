@@ -11,7 +11,7 @@ namespace slagflow {
 inline void clear(FluidArrays& f, std::size_t count) {
   f.resize(static_cast<Index>(count));
   f.position.upload(std::vector<Vec3d>(count));
-  for (Buffer<Quad>* field : {&f.place, &f.motion, &f.increment, &f.state})
+  for (Buffer<Quad>* field : {&f.place, &f.motion, &f.increment, &f.last_increment, &f.by_pressure, &f.state})
     field->upload(std::vector<Quad>(count));
   f.id.upload(std::vector<Index>(count));
   f.fluid.upload(std::vector<std::uint8_t>(count));

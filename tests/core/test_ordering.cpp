@@ -36,7 +36,7 @@ class OrderingOf : public testing::Test {
   void upload(const std::vector<Placed>& particles) {
     const std::size_t n = particles.size();
     std::vector<Vec3d> position(n);
-    std::vector<Quad> place(n), motion(n), increment(n), state(n);
+    std::vector<Quad> place(n), motion(n), increment(n), last_increment(n), by_pressure(n), state(n);
     std::vector<Index> id(n);
     std::vector<std::uint8_t> fluid(n);
     std::vector<Real> pressure(n), shear_rate(n);
@@ -45,10 +45,12 @@ class OrderingOf : public testing::Test {
       position[i] = particles[i].position, fluid[i] = particles[i].fluid, id[i] = static_cast<Index>(i);
       place[i] = quad(to_real(position[i]), mark + 1), motion[i] = quad({mark, 0, 0}, mark + 2);
       increment[i] = quad({0, mark, 0}, mark + 3), state[i] = quad({0, 0, mark}, mark + 4);
+      last_increment[i] = quad({mark, mark, 0}, 0), by_pressure[i] = quad({0, mark, mark}, 0);
       pressure[i] = mark + 5, shear_rate[i] = mark + 6;
     }
     fluid_.resize(static_cast<Index>(n));
     fluid_.position.upload(position), fluid_.place.upload(place), fluid_.motion.upload(motion);
+    fluid_.last_increment.upload(last_increment), fluid_.by_pressure.upload(by_pressure);
     fluid_.increment.upload(increment), fluid_.state.upload(state), fluid_.id.upload(id);
     fluid_.fluid.upload(fluid), fluid_.pressure.upload(pressure), fluid_.shear_rate.upload(shear_rate);
   }
@@ -96,7 +98,9 @@ TEST_F(OrderingOf, MovesAllArraysTogether) {
   const auto particles = random_particles(500, 0);
   sort(particles, {false, false, false});
   const auto motion = download(context_, fluid_.motion.span()),
-             increment = download(context_, fluid_.increment.span());
+             increment = download(context_, fluid_.increment.span()),
+             last_increment = download(context_, fluid_.last_increment.span()),
+             by_pressure = download(context_, fluid_.by_pressure.span());
   const auto state = download(context_, fluid_.state.span());
   const auto pressure = download(context_, fluid_.pressure.span()),
              rate = download(context_, fluid_.shear_rate.span());
@@ -112,6 +116,8 @@ TEST_F(OrderingOf, MovesAllArraysTogether) {
     EXPECT_EQ(motion[i].w, mark + 2);
     EXPECT_EQ(increment[i].y, mark);
     EXPECT_EQ(increment[i].w, mark + 3);
+    EXPECT_EQ(xyz(last_increment[i]), (Vec3{mark, mark, 0}));
+    EXPECT_EQ(xyz(by_pressure[i]), (Vec3{0, mark, mark}));
     EXPECT_EQ(state[i].z, mark);
     EXPECT_EQ(state[i].w, mark + 4);
     EXPECT_EQ(pressure[i], mark + 5);
