@@ -25,10 +25,9 @@ struct PairContext {
 // a_ij the mean acceleration of the pair by pressure in the last step, so that rho0 a/c0^2 is minus the
 // smooth gradient of the density: what diffuses is noise between neighbours, not the gradient that holds
 // gravity, viscosity, a yield stress or surface tension. Wall pairs have a_w - g for a_ij: theirs is the
-// pressure that gravity continues (wall_pressure.hpp), and v_j less dt a_w, the velocity of the last step as the
-// fluid's. With -g for all pairs it is the diffusion of G. Fourtakas et
-// al., Comput. Fluids 190 (2019) 346, which blows up thin fluid that viscous stress holds. Sets the pressure
-// by the equation of state
+// pressure that gravity continues (wall_pressure.hpp), and v_j less dt a_w, the velocity of the last step as
+// the fluid's. With -g for all pairs it is the diffusion of G. Fourtakas et al., Comput. Fluids 190 (2019)
+// 346, which blows up thin fluid that viscous stress holds. Sets the pressure by the equation of state
 //   p = max(c0^2 (rho - rho0), -p_t)
 // and the viscosity from the shear rate
 //   gamma_i^2 = C (d+2) sum_j V_j |F_ij| ((v_i - v_j).x_ij)^2 / r^2,
