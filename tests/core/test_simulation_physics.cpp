@@ -47,8 +47,8 @@ TEST(SimulationPhysics, AFreeBlockFallsFreely) {
   EXPECT_LT(error.position, 1e-5);
 }
 
-// Density diffusion spares the gradient that the pressure had a step ago: in the first step that of a fluid at
-// rest, from which the underside comes under a little pressure; then that of a fall, none.
+// Density diffusion spares the gradient that the pressure had a step ago: in the first step that of a fluid
+// at rest, from which the underside comes under a little pressure; then that of a fall, none.
 TEST(SimulationPhysics, DensityDiffusionHardlyDisturbsAFall) {
   const FallError error = fall(0.1);
   EXPECT_LT(error.momentum, 1e-3);
