@@ -31,7 +31,7 @@ inline SimulationSetup empty_setup(Vec3d lower, Vec3d upper) {
   s.bodies = {{"floor", WallSlip::no_slip}};
   s.domain.lower = lower, s.domain.upper = upper;
   s.numerics.sound_speed = 4;
-  s.numerics.courant = 0.5;
+  s.numerics.courant = 0.5;  // short steps: some tests count them
   return s;
 }
 
