@@ -55,7 +55,9 @@ Simulation::State::State(const SimulationSetup& s)
       diagnostics(context),
       watch(context, setup),
       planes(s),
-      step_graph(context, "steps") {
+      step_graph(context, "steps"),
+      yielded(context, "yielded"),
+      side_stream(context) {
   if (setup.time_parts) step_graph.launch_singly();
   departed.resize(s.fluids.size());
   dt = full_dt = stable_time_step(setup);

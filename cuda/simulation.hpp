@@ -37,6 +37,27 @@ struct WallSnapshot {
   std::vector<std::uint8_t> body;  // index of the body
 };
 
+enum class Reading { fluid, fluid_and_walls };
+
+// Host copies of a simulation's state under way; see Simulation::start_reading(). Ends before the simulation.
+class StateTransfer {
+ public:
+  StateTransfer();
+  ~StateTransfer();
+  StateTransfer(const StateTransfer&) = delete;
+  StateTransfer& operator=(const StateTransfer&) = delete;
+
+  bool under_way() const;
+  // Waits until all has arrived, and gives it; the walls as they are where they were not read. Any thread may
+  // do so while the simulation steps on. Throws Error when the device has failed.
+  void finish(FluidSnapshot&, WallSnapshot&);
+
+ private:
+  friend class Simulation;
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
 struct FrontState {
   std::int64_t passed = 0;  // particles beyond the plane, those that left through a face beyond it included
   Vec3d mean_position;      // [m] of those beyond it that are still in the domain
@@ -136,12 +157,16 @@ class Simulation {
   SavedState save() const;
   void restore(const SavedState&);
 
-  void read(FluidSnapshot& out);
-  void read(WallSnapshot& out);
+  void read(FluidSnapshot&);
+  void read(FluidSnapshot&, WallSnapshot&);
+  // The same without waiting: what is there now arrives while steps go on, and StateTransfer::finish() gives
+  // it. With nothing under way in the transfer. A CPU build copies at once. Throws Error when memory ends.
+  void start_reading(StateTransfer&, Reading);
   // Along SimulationSetup::lines[line].
   std::vector<ProfilePoint> profile(std::size_t line) const;
 
  private:
+  friend class StateTransfer;
   struct State;
   std::unique_ptr<State> state_;
 };

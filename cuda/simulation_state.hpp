@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "backend/launch_graph.hpp"
+#include "backend/side_copy.hpp"
 #include "constants.hpp"
 #include "density.hpp"
 #include "diagnostics.hpp"
@@ -56,6 +57,9 @@ struct Simulation::State {
   SolveReport report;
   SolverTotals solver;
   LaunchGraph step_graph;
+  Buffer<std::uint8_t> yielded;  // for snapshots
+  SideStream side_stream;
+  StateTransfer own_transfer;
 
   void upload_fluid();
   void upload_walls();

@@ -169,8 +169,8 @@ void Run::record() {
 void Run::take_snapshot() {
   if (snapshot_step_ == simulation_->steps()) return;
   snapshots_->write([this](Snapshot& snapshot) {
-    simulation_->read(snapshot.particles);
-    if (snapshots_->writes_walls()) simulation_->read(snapshot.walls);
+    simulation_->start_reading(snapshot.arriving,
+                               snapshots_->writes_walls() ? Reading::fluid_and_walls : Reading::fluid);
   });
   profiles_->write(*simulation_);
   snapshot_step_ = simulation_->steps();

@@ -126,11 +126,12 @@ void SnapshotWriter::work() {
     lock.unlock();
     std::exception_ptr failure;
     try {
+      if (buffer->arriving.under_way()) buffer->arriving.finish(buffer->particles, buffer->walls);
       append(*buffer);
     } catch (...) {
       failure = std::current_exception();
     }
-    *buffer = {};  // between snapshots their memory is free for a checkpoint
+    buffer->particles = {}, buffer->walls = {};  // between snapshots their memory is free for a checkpoint
     lock.lock();
     if (failure)
       failure_ = failure;

@@ -22,6 +22,7 @@ namespace slagflow {
 struct Snapshot {
   FluidSnapshot particles;
   WallSnapshot walls;
+  StateTransfer arriving;  // when under way it gives the others
 };
 
 struct SnapshotSizes {
@@ -49,8 +50,8 @@ class SnapshotWriter {
 
   bool writes_walls() const { return walls_.has_value(); }
 
-  // Waits until one of the two buffers is free, lets `fill` put a snapshot into it and queues it.
-  // Throws what `fill` throws, and the Error of an earlier snapshot that could not be written.
+  // Waits until one of the two buffers is free, lets `fill` put a snapshot into it, or start its transfer,
+  // and queues it. Throws what `fill` throws, and the Error of an earlier snapshot that could not be written.
   void write(const std::function<void(Snapshot&)>& fill);
 
   // Waits until all that is queued is written, and flushes it to the disk. Returns the number of time steps

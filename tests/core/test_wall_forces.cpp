@@ -159,8 +159,9 @@ TEST(MovingWallsOf, ASimulationResumeToTheSameBits) {
     expect_same(whole, resumed);
   }
   EXPECT_GT(whole.time(), 0.01);
+  FluidSnapshot fluid;
   WallSnapshot walls;
-  whole.read(walls);
+  whole.read(fluid, walls);
   EXPECT_TRUE(walls.moves);
   EXPECT_LT(walls.position.size(), s.walls.position.size());
 }
