@@ -104,6 +104,9 @@ kernel _Zk
 """
         # Of 200 gathered sectors two arrays of 64 times 16 bytes come from memory.
         self.assertEqual(device_model.parse_profile(part + part)["_Zk"], [4, 128, 40, 14, 608, 336])
+        # The density gathers the acceleration by pressure, too: 16 B a thread more.
+        density = part.replace("_Zk", "_ZDensityAndShearE")
+        self.assertEqual(device_model.parse_profile(density)["_ZDensityAndShearE"], [2, 64, 20, 7, 304, 200])
 
 
 if __name__ == "__main__":

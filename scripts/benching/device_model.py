@@ -31,6 +31,7 @@ GPUS = {
 ATTAINED = 0.75
 LAUNCH, NODE, WAIT = 2.5e-6, 1.5e-6, 15e-6  # [s]
 GATHERED_ARRAYS = 2           # of 16-byte elements, in a kernel that gathers
+MORE_GATHERED_ARRAYS = {"DensityAndShear": 1}  # by a part of the kernel's name
 SIZES = (12500, 102000, 1000000, 10000000)
 
 
@@ -44,10 +45,11 @@ def parse_profile(text):
         loads, stores = number(r"global loads .* (\d+) sectors"), number(r"global stores .* (\d+) sectors")
         wide = sum(int(n) for n in re.findall(r"(\d+) sectors,[^\n]*ld\.global\S*\.v4\.f32", part))
         threads = number(r"threads (\d+)")
-        gathered = min(wide, GATHERED_ARRAYS * threads * 16 // 32)
+        name = part.splitlines()[0].strip()
+        arrays = GATHERED_ARRAYS + sum(n for kernel, n in MORE_GATHERED_ARRAYS.items() if kernel in name)
+        gathered = min(wide, arrays * threads * 16 // 32)
         totals = (number(r"launches (\d+)"), threads, number(r"warp instructions (\d+)"), number(r"fp64 ops (\d+)"),
                   loads + stores, loads - wide + gathered + stores)
-        name = part.splitlines()[0].strip()
         kernels[name] = [a + b for a, b in zip(kernels.get(name, [0] * 6), totals)]
     return kernels
 

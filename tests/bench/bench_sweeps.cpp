@@ -48,8 +48,8 @@ void density(benchmark::State& state) {
   set_threads(static_cast<int>(state.range(1)));
   Scene scene(state.range(0));
   const PairCounts pairs(scene);
-  const Work work{4 * pairs.listed + 2 * row_bytes + 7 * quad_bytes + 7 * real_bytes,
-                  8 * pairs.listed + 29 * pairs.within};
+  const Work work{4 * pairs.listed + 2 * row_bytes + 8 * quad_bytes + 7 * real_bytes,
+                  8 * pairs.listed + 33 * pairs.within};
   measure(state, scene, work,
           [&] { update_density(scene.context, scene.pairs(), scene.fluid, scene.scratch, 0); });
 }
@@ -88,7 +88,7 @@ void viscous(benchmark::State& state, ViscousSolver solver, const char* part) {
     seconds += took, rounds += times;
   }
   const PairCounts pairs(scene);
-  Work work{4 * pairs.listed + 2 * row_bytes + 8 * quad_bytes + (4 + real_bytes) * pairs.within,
+  Work work{4 * pairs.listed + 2 * row_bytes + 9 * quad_bytes + (4 + real_bytes) * pairs.within,
             8 * pairs.listed + 34 * pairs.within};
   if (solves)
     work = {(4 + real_bytes) * pairs.within + 2 * row_bytes + 12 * quad_bytes, 17 * pairs.within + 60};
