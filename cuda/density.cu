@@ -67,6 +67,7 @@ struct DensityAndShear {
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
                    hydrostatic = in_lanes(centre.slope * c.flow.gravity);
+    const Real sticking = sticking_share(c, i);
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -92,7 +93,7 @@ struct DensityAndShear {
       sums.diffusion -=
           select(pressure > Lanes(-c.flow.tension_limit), weight * (difference + rest), Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
-      const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
+      const Lanes stick = sticking * no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
       const Lanes dissipated = Real(2) * stick * share * approach / (r2 + c.flow.softening);
       sums.shear -= select(other.w < Lanes(0), Lanes(0), dissipated);

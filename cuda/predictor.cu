@@ -59,6 +59,7 @@ struct PredictAndAssemble {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Real factor =
         implicit_dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
+    const Real sticking_part = sticking_share(c, i);
     LaneVec3 push, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);
@@ -75,7 +76,7 @@ struct PredictAndAssemble {
       push += (f * pair_pressure(c.flow, smoothing, Lanes(own.x), pressure / square(density), r)) * d;
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
-      const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
+      const Lanes stick = sticking_part * no_slip_factor(pair, c.flow.spacing, motion.w);
       const Lanes weight = -factor * stick * f / (r2 + c.flow.softening);
       const Lanes sticking = select(motion.w < Lanes(0), Lanes(0), weight);
       add_coupling(c.flow.coupling, sticking, d, coupled);

@@ -35,24 +35,28 @@ struct Stress {
   PairContext c;
   Smoothing smoothing;
   Box box;
-  Real noise;  // n0 [1/m]
+  Real noise;       // n0 [1/m]
+  Real wall_share;  // k_w/k
   Span<const Real> strength, cosine;
   Span<const Index> wall_id;
-  Span<Quad> normal_stress, shear_stress, wall_normal, wall_traction;
+  Span<Quad> normal_stress, shear_stress, wall_normal, wall_traction, acceleration;
 
   HOST_DEVICE void operator()(Index i) const {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
     Vec3 wetted;  // gradient of the walls' colour, each times the cosine of its contact angle
     const Vec3 s = wall_gradient(i, x, wetted);
     const Vec3 n = fluid_gradient(i, x) + s;
-    const Real k = strength[c.fluid.fluid[i]], s2 = dot(s, s);
-    Symmetric3 stress = tension(k, n);
-    if (s2 > 0) stress += tension(-k * dot(s, wetted) / s2, s);
-    const Vec3 out = s2 > 0 ? (1 / std::sqrt(s2)) * s : Vec3{};
+    const Real k = strength[c.fluid.fluid[i]], size = std::sqrt(dot(s, s));
+    const Real wet = dot(s, wetted);
+    const Symmetric3 stress = tension(k, n);
+    const Vec3 out = size > 0 ? (1 / size) * s : Vec3{};
     normal_stress[i] = {stress.xx, stress.yy, stress.zz, stress.xy};
     shear_stress[i] = {stress.xz, stress.yz, 0, 0};
-    wall_normal[i] = quad(out, 0);
+    wall_normal[i] = quad(out, k * wall_share * wet / (size + noise));
     wall_traction[i] = quad(c.fluid.state[i].z * (stress * out), 0);
+    const Real n4 = square(dot(n, n) / square(noise));
+    const Real slips = size > 0 ? smaller(Real(1), 1 + wet / square(size)) : Real(0);
+    acceleration[i] = {0, 0, 0, slips * n4 / (n4 + 1)};
   }
 
   // factor (|n|^2 - n n)/(|n| + n0)
@@ -100,9 +104,10 @@ struct Stress {
   }
 };
 
-template <class Box>
+template <class Smoothing, class Box>
 struct Divergence {
   PairContext c;
+  Smoothing smoothing;
   TensionWeight weight;
   Box box;
   CapillaryView capillary;
@@ -112,8 +117,15 @@ struct Divergence {
     return SymmetricMatrix3<Lanes>{normal.x, normal.y, normal.z, normal.w, shear.x, shear.y} * d;
   }
 
+  // factor (1 - s s/|s|^2) d
+  template <class Face>
+  HOST_DEVICE static LaneVec3 along_wall(const Face& normal, Lanes factor, LaneVec3 d) {
+    return factor * (d - dot(normal, d) * normal);
+  }
+
   HOST_DEVICE void operator()(Index i) const {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
+    const Quad wetted = capillary.wall_normal[i];
     const Quad normal = capillary.normal_stress[i], shear = capillary.shear_stress[i];
     LaneVec3 sum;
     const Offset first = c.fluid_list.row(i);
@@ -128,10 +140,14 @@ struct Divergence {
       const QuadLanes a = gather(capillary.normal_stress, j), b = gather(capillary.shear_stress, j);
       const QuadLanes sum_normal{a.x + normal.x, a.y + normal.y, a.z + normal.z, a.w + normal.w};
       const QuadLanes sum_shear{b.x + shear.x, b.y + shear.y, Lanes(0), Lanes(0)};
-      sum += select(near, there.w * weight(root(r2)), Lanes(0)) * times(sum_normal, sum_shear, d);
+      const Lanes r = root(r2);
+      sum += select(near, there.w * weight(r), Lanes(0)) * times(sum_normal, sum_shear, d);
+      const QuadLanes wet = gather(capillary.wall_normal, j);
+      const Lanes push = select(near, there.w * smoothing.gradient(r), Lanes(0));
+      sum += along_wall(xyz(wet), push * wet.w, d) + along_wall(in_lanes(xyz(wetted)), push * wetted.w, d);
     }
     const Quad own = c.fluid.state[i];
-    acceleration[i] = quad((-own.z / own.w) * total(sum) + (1 / own.w) * from_walls(i), 0);
+    acceleration[i] = quad((-own.z / own.w) * total(sum) + (1 / own.w) * from_walls(i), acceleration[i].w);
   }
 
   HOST_DEVICE Vec3 from_walls(Index i) const {
@@ -164,11 +180,13 @@ TensionWeight::TensionWeight(double h, int dimensions)
       factor(static_cast<Real>(dimensions == 3 ? 189 / (pi * std::pow(h, 5)) : 168 / (pi * std::pow(h, 4)))) {
 }
 
-double plane_surface_tension(int dimensions) {
+namespace {
+
+// int_0^h W1^2/(W1 + n0) M dz, M the share of int w x_t^2 dV within the fluid.
+template <class Weight>
+double plane_integral(int dimensions, const Weight& weight) {
   const Lucy smoothing(1, dimensions);
-  const double factor = dimensions == 3 ? 189 / pi : 168 / pi;
   const auto value = [&](double r) { return static_cast<double>(smoothing.value(static_cast<Real>(r))); };
-  const auto weight = [&](double r) { return factor * square(r * (1 - r)); };
   const double step = 1.0 / intervals;
   double sum = 0, share = 0.5;
   for (int k = 0; k <= intervals; ++k) {
@@ -181,6 +199,19 @@ double plane_surface_tension(int dimensions) {
     sum += simpson_weight(k) * step / 3 * square(n) / (n + colour_noise) * share;
   }
   return sum;
+}
+
+}  // namespace
+
+double plane_surface_tension(int dimensions) {
+  const double factor = dimensions == 3 ? 189 / pi : 168 / pi;
+  return plane_integral(dimensions, [&](double r) { return factor * square(r * (1 - r)); });
+}
+
+double plane_wall_tension(int dimensions) {
+  const Lucy smoothing(1, dimensions);
+  return plane_integral(
+      dimensions, [&](double r) { return -static_cast<double>(smoothing.gradient(static_cast<Real>(r))); });
 }
 
 SurfaceTension::SurfaceTension(Context& c, const SimulationSetup& s)
@@ -196,6 +227,7 @@ SurfaceTension::SurfaceTension(Context& c, const SimulationSetup& s)
                     [](const FluidSetup& f) { return f.surface_tension > 0; });
   if (!on_) return;
   const double scale = 1 / plane_surface_tension(s.dimensions);
+  wall_share_ = static_cast<Real>(plane_surface_tension(s.dimensions) / plane_wall_tension(s.dimensions));
   std::vector<Real> strength, cosine;
   for (const FluidSetup& f : s.fluids) strength.push_back(static_cast<Real>(f.surface_tension * scale));
   for (const std::uint8_t body : s.walls.body)
@@ -222,11 +254,11 @@ void SurfaceTension::update(const PairContext& c, Span<const Index> wall_id) {
   const auto noise = static_cast<Real>(colour_noise) / c.flow.support;
   auto sweep = [&](auto box) {
     launch(context_, "capillary stress", n,
-           Stress<Lucy, decltype(box)>{c, smoothing, box, noise, strength_.span(), cosine_.span(), wall_id,
-                                       normal_stress_.span(), shear_stress_.span(), wall_normal_.span(),
-                                       wall_traction_.span()});
+           Stress<Lucy, decltype(box)>{c, smoothing, box, noise, wall_share_, strength_.span(),
+                                       cosine_.span(), wall_id, normal_stress_.span(), shear_stress_.span(),
+                                       wall_normal_.span(), wall_traction_.span(), acceleration_.span()});
     launch(context_, "capillary acceleration", n,
-           Divergence<decltype(box)>{c, weight, box, view(), acceleration_.span()});
+           Divergence<Lucy, decltype(box)>{c, smoothing, weight, box, view(), acceleration_.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

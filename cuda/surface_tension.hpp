@@ -32,12 +32,14 @@ constexpr double colour_noise = 0.1;
 // z. W1: the smoothing function integrated over planes, which is the gradient of the colour there; M: the
 // share of int K x_t^2 dV, x_t along the surface, that lies within the fluid. Thus k = sigma over this.
 double plane_surface_tension(int dimensions);
+// The same with -F in place of K: k_w = sigma over this.
+double plane_wall_tension(int dimensions);
 
 // The stress as pairs see it; all empty without surface tension.
 struct CapillaryView {
   Span<const Quad> normal_stress;  // xx, yy, zz, xy [Pa]
   Span<const Quad> shear_stress;   // xz, yz, 0, 0 [Pa]
-  Span<const Quad> wall_normal;    // unit vector s/|s|, 0 away from walls
+  Span<const Quad> wall_normal;    // unit vector s/|s|, 0 away from walls; w: A [Pa]
   Span<const Quad> wall_traction;  // V_i T s/|s| [Pa m^3]: of the volume that the acceleration had
 
   HOST_DEVICE bool any() const { return normal_stress.size > 0; }
@@ -53,13 +55,17 @@ HOST_DEVICE inline Vec3 capillary_pull(const CapillaryView& c, const TensionWeig
 }
 
 // n = sum_j V_j F_ij x_ij over fluid and walls is the gradient of the colour, which walls continue; s that of
-// the walls alone; theta the contact angle.
-//   T_i = k [S(n) - cos theta S(s)],   S(n) = (|n|^2 - n n)/(|n| + n0)
-//   m_i a_i = -V_i sum_j V_j K_ij (T_i + T_j) x_ij
-// The first part is the tension of the free surface (the continuum surface stress of B. Lafaurie et al.,
-// J. Comput. Phys. 113 (1994) 134, with |n| as delta function where it is above n0 = 0.1/h), the second that
-// of the wetted wall, which by Young's equation is sigma_sl - sigma_s = -sigma cos theta. Pairs carry
-// momentum exactly. Only the fluid's side of a surface has particles.
+// the walls alone, t = s/|s|; theta the contact angle.
+//   T_i = k (|n|^2 - n n)/(|n| + n0),   A_i = k_w cos theta |s|^2/(|s| + n0)
+//   m_i a_i = -V_i sum_j V_j [K_ij (T_i + T_j) + F_ij (A_i (1 - t_i t_i) + A_j (1 - t_j t_j))] x_ij
+// T is the tension of the free surface (the continuum surface stress of B. Lafaurie et al., J. Comput. Phys.
+// 113 (1994) 134, with |n| as delta function where it is above n0 = 0.1/h), A the push along the wetted wall,
+// by Young's equation sigma_s - sigma_sl = sigma cos theta. Particles that push each other need a weight that
+// falls with the distance, -F, as those that pull need one that grows, K: with K the layer at the wall
+// clumped. Pairs carry momentum exactly. Only the fluid's side of a surface has particles.
+// A contact line cannot move over a wall where the fluid sticks, but by rolling, as at 180 degrees (C. Huh,
+// L. E. Scriven, J. Colloid Interface Sci. 35 (1971) 85): there the drag of walls is times 1 - chi,
+//   chi = min(1, 1 + cos theta) |n|^4/(|n|^4 + n0^4).
 class SurfaceTension {
  public:
   SurfaceTension(Context&, const SimulationSetup&);
@@ -69,7 +75,7 @@ class SurfaceTension {
   void reserve(Index count);
   // Sets stress and acceleration, after reserve(). `wall_id`: id of each wall particle.
   void update(const PairContext&, Span<const Index> wall_id);
-  Span<const Quad> acceleration() const { return acceleration_.span(); }  // xyz [m/s^2]
+  Span<const Quad> acceleration() const { return acceleration_.span(); }  // xyz [m/s^2], w: chi
   CapillaryView view() const;
 
   // What the stress does on the fluid at the velocities of a solve that has converged [W], to the record.
@@ -78,6 +84,7 @@ class SurfaceTension {
  private:
   Context& context_;
   bool on_ = false;
+  Real wall_share_ = 0;    // k_w/k
   Buffer<Real> strength_;  // k of each fluid [N/m]
   Buffer<Real> cosine_;    // of the contact angle, by wall id
   Buffer<Quad> normal_stress_, shear_stress_, wall_normal_, wall_traction_, acceleration_;

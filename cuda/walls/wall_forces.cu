@@ -48,7 +48,7 @@ struct AddImpulse {
     Vec3d viscous;
     if (wall.w >= 0) {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
-      const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
+      const Real stick = sticking_share(c, i) * no_slip_factor(pair, c.flow.spacing, wall.w);
       const Real factor =
           dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
       const Real weight = -factor * stick * f / (r2 + c.flow.softening);

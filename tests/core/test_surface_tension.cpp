@@ -24,6 +24,8 @@ SimulationSetup tense_dam() {
 TEST(SurfaceTension, HasTheStrengthOfItsIntegral) {
   EXPECT_NEAR(plane_surface_tension(2), 0.310987, 2e-4);
   EXPECT_NEAR(plane_surface_tension(3), 0.315968, 2e-4);
+  EXPECT_NEAR(plane_wall_tension(2), 0.324187, 5e-5);
+  EXPECT_NEAR(plane_wall_tension(3), 0.325487, 5e-5);
 }
 
 TEST(SurfaceTension, LimitsTheTimeStep) {

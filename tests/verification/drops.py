@@ -109,8 +109,6 @@ def draw(axes, results):
 MISSES = {
     "10 in a radius: pressure, (d − 1) σ/R [Pa]":
         "tension acts 0.8 spacings below the surface, 9 %; the rest falls as the lattice of the start melts",
-    "20 in a radius, 2-D: contact angle, wall of 60° [°]":
-        "wall particles push and an eddy drags along the wall at the contact line, by 0.1 to 0.15 σ",
     "20 in a radius, 2-D: contact angle, wall of 120° [°]":
-        "wall particles push and an eddy drags along the wall at the contact line, by 0.1 to 0.15 σ",
+        "what wall particles push along the wall at the contact line; over 120° also the lattice strength of the tensions",
 }

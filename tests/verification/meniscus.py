@@ -9,7 +9,7 @@ NAME = "meniscus"
 TITLE = "silicone oil between walls of 60° and 120°"
 WIDTH = 0.03  # [m]
 ANGLES = (60, 120)  # [degrees]
-ON_A_DROP = {60: 67.9, 120: 129.3}  # what a drop makes of them at 20 in its radius [degrees]
+ON_A_DROP = {60: 59.9, 120: 125.1}  # what a drop makes of them at 20 in its radius [degrees]
 
 
 def runs(quick):
@@ -63,7 +63,7 @@ def fitted_angle(x, z, length):
         exact = np.interp(np.abs(x), *surface_between_walls(angle, length))
         return np.std(z - exact)
 
-    angles = np.arange(20, 160.5, 0.5)
+    angles = np.arange(20, 160.05, 0.1)
     return angles[np.argmin([misfit(angle) for angle in angles])]
 
 
@@ -103,8 +103,8 @@ def draw(axes, results):
     axes.legend(fontsize=6)
 
 
-CAUSE = ("an angle at the wall that is off, as under a drop, where the wall pushes and drags along itself at the contact line; "
-         "not taken apart here")
+CAUSE = "1° of the angle at the wall is 3 % of the rise, and the angle is off by 2 to 5°, more on coarse lattices"
 MISSES = {f"{scale} in a capillary length: {quantity.format(angle)}": CAUSE
-          for scale in ("7.5", "15") for angle in ANGLES
-          for quantity in ("rise at a wall of {}° [m]", "contact angle that fits it, wall of {}° [°]")}
+          for scale, quantities in (("7.5", ("rise at a wall of {}° [m]", "contact angle that fits it, wall of {}° [°]")),
+                                    ("15", ("rise at a wall of {}° [m]",)))
+          for angle in ANGLES for quantity in quantities}
