@@ -29,6 +29,14 @@ void validate_exact_yield(const SimulationSetup& s) {
                                                      "herschel-bulkley, carreau-yasuda");
 }
 
+void validate_device_loop(const NumericsSetup& n) {
+  const std::string with = "numerics.solver_loop: value \"conditional\" ", allowed = "; allowed: \"batch\"";
+  require(n.solver == ViscousSolver::multigrid || n.solver == ViscousSolver::conjugate_gradient,
+          with + "with a solver other than multigrid, conjugate_gradient" + allowed);
+  require(n.viscous_step == ViscousStepping::implicit_step && n.yield == YieldModel::regularised,
+          with + "with an explicit step or an exact yield stress" + allowed);
+}
+
 double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.dimensions); }
 
 }  // namespace
@@ -47,6 +55,7 @@ void validate(const SimulationSetup& s) {
           "theta is " + std::to_string(s.numerics.theta) + "; allowed: 0.5 to 1");
   require(!s.fluids.empty(), "there is no fluid");
   if (s.numerics.yield == YieldModel::exact) validate_exact_yield(s);
+  if (s.numerics.solver_loop == SolverLoop::conditional) validate_device_loop(s.numerics);
   const auto& p = s.particles;
   const std::size_t n = p.position.size();
   require(n < static_cast<std::size_t>(std::numeric_limits<Index>::max()),

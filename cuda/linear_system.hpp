@@ -106,6 +106,7 @@ struct SolveLimits {
   int max_iterations = 200;
   double relaxation = 1.2;    // of SOR
   double start_residual = 0;  // ||b - A u|| of the first guess
+  bool device_loop = false;   // whether the device repeats iterations until they end, of multigrid
 };
 
 struct SolveResult {

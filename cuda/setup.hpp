@@ -85,6 +85,10 @@ enum class YieldModel { regularised, exact };
 
 enum class ViscousSolver { multigrid, conjugate_gradient, sor, jacobi };
 
+// Who repeats the iterations of multigrid and conjugate_gradient until they have converged: the host, which
+// looks after each batch, or the device.
+enum class SolverLoop { batch, conditional };
+
 struct NumericsSetup {
   double sound_speed = 0;           // [m/s]
   double courant = 0.8;             // dt <= courant (h/2) / sound_speed
@@ -104,6 +108,7 @@ struct NumericsSetup {
   double theta = 1;    // 1 backward Euler, 0.5 Crank-Nicolson
   double skin = 0.06;  // of the neighbour list, in support radii
   ViscousSolver solver = ViscousSolver::multigrid;
+  SolverLoop solver_loop = SolverLoop::batch;
   double tolerance = 1e-2;  // rms velocity error of the solve, in gravity kicks g dt
   int max_iterations = 200;
   double relaxation = 1.2;  // omega of SOR

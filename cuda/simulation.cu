@@ -58,7 +58,7 @@ Simulation::State::State(const SimulationSetup& s)
       step_graph(context, "steps"),
       yielded(context, "yielded"),
       side_stream(context) {
-  if (setup.time_parts) step_graph.launch_singly();
+  if (setup.time_parts) step_graph.launch_singly(), viscous.launch_singly();
   departed.resize(s.fluids.size());
   dt = full_dt = stable_time_step(setup);
   upload_fluid();

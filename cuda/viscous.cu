@@ -234,7 +234,14 @@ void ViscousStep::begin_solve(const LinearSystem& matrix, const Step& step, Buff
                           StartFromPredicted{matrix, predicted_.span(), increment.span(),
                                              right_hand_side_.span(), work_.residual.span()},
                           BeginSolve{work_.state(), wanted_residual(step, matrix.size), most});
-  if (most > 0) launch_conjugate_gradient(context_, matrix, smaller(patience, most), increment, work_);
+  if (most <= 0) return;
+  const auto launch_batch = [&] {
+    launch_conjugate_gradient(context_, matrix, smaller(patience, most), increment, work_);
+  };
+  if (device_loop())
+    context_.repeat_while(&work_.state()->running, launch_batch);
+  else
+    launch_batch();
 }
 
 // The rms velocity error that is allowed, as a residual.
@@ -249,7 +256,8 @@ void ViscousStep::forget(FluidArrays& fluid) {
 SolveResult ViscousStep::go_on(const LinearSystem& matrix, const RowCells& rows, const SolveState& now,
                                double energy, Buffer<Quad>& increment) {
   if (now.converged) return {now.iterations, now.residual, now.right_hand_side, true};
-  const SolveLimits limits{now.limit, energy, numerics_.max_iterations, numerics_.relaxation, now.residual};
+  const SolveLimits limits{now.limit,    energy,       numerics_.max_iterations, numerics_.relaxation,
+                           now.residual, device_loop()};
   SolveResult result{now.iterations, now.residual, now.right_hand_side, false};
   switch (numerics_.solver) {
     case ViscousSolver::jacobi:

@@ -40,6 +40,9 @@ class ViscousStep {
   SolveResult finish(const StepRecord& now, const PairContext&, const RowCells&, const Step&, FluidArrays&);
   StepRecord* record() { return work_.record.span().data; }
 
+  // Launches one by one from now on.
+  void launch_singly() { multigrid_.launch_singly(); }
+
   // Sets the first guess to nothing.
   void forget(FluidArrays&);
 
@@ -55,6 +58,7 @@ class ViscousStep {
 
  private:
   bool exact_yield_stress() const { return numerics_.yield == YieldModel::exact; }
+  bool device_loop() const { return numerics_.solver_loop == SolverLoop::conditional; }
   bool is_explicit() const { return numerics_.viscous_step == ViscousStepping::explicit_step; }
   LinearSystem system(const PairContext&) const;
   double wanted_residual(const Step&, Index count) const;

@@ -185,6 +185,20 @@ void check_exact_yield(const Case& c, CaseProblems& problems) {
                        "\"newtonian\", \"bingham\", \"herschel-bulkley\", \"carreau-yasuda\"");
 }
 
+// The device repeats iterations that decide by themselves whether they go on.
+void check_solver_loop(const Case& c, CaseProblems& problems) {
+  const NumericsSetup& n = c.numerics;
+  if (n.solver_loop != SolverLoop::conditional) return;
+  const auto refuse = [&](const char* with) {
+    problems.add("numerics.solver_loop",
+                 "value \"conditional\" with " + std::string(with) + ": allowed: \"batch\"");
+  };
+  if (n.solver == ViscousSolver::sor) refuse("numerics.solver = \"sor\"");
+  if (n.solver == ViscousSolver::jacobi) refuse("numerics.solver = \"jacobi\"");
+  if (n.viscous_step == ViscousStepping::explicit_step) refuse("numerics.viscous_step = \"explicit\"");
+  if (n.yield == YieldModel::exact) refuse("numerics.yield = \"exact\"");
+}
+
 }  // namespace
 
 void check_across_tables(const Case& c, CaseProblems& problems) {
@@ -193,6 +207,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_measures(c, problems);
   check_stop(c, problems);
   check_exact_yield(c, problems);
+  check_solver_loop(c, problems);
 }
 
 }  // namespace slagflow

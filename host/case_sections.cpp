@@ -11,6 +11,7 @@ const std::vector<std::string> kernel_names{"lucy"};
 const std::vector<std::string> pressure_names{"hydrostatic", "zero"};
 const std::vector<std::string> departure_names{"remove", "stop"};
 const std::vector<std::string> solver_names{"multigrid", "conjugate_gradient", "sor", "jacobi"};
+const std::vector<std::string> loop_names{"batch", "conditional"};
 const std::vector<std::string> operator_names{"radial", "laplacian"};
 const std::vector<std::string> stepping_names{"implicit", "explicit"};
 const std::vector<std::string> yield_names{"regularised", "exact"};
@@ -283,6 +284,7 @@ void read_numerics(CaseTable& top, Case& c) {
   t.read("shifting", n.shifting, between(0, 1, ""));
   read_viscous_step(t, n);
   t.read_enum("solver", n.solver, solver_names);
+  t.read_enum("solver_loop", n.solver_loop, loop_names);
   t.read("tolerance", n.tolerance, above(0, ""));
   t.read_integer("max_iterations", n.max_iterations, 1, 100000);
   Range relaxation = between(0, 2, "");

@@ -11,8 +11,8 @@ namespace slagflow {
 
 // What the keys of the file may say; shared with the writer.
 extern const std::vector<std::string> kernel_names, slip_names, pressure_names, departure_names, solver_names,
-    operator_names, stepping_names, explicit_names, yield_names, measure_names, direction_names, axis_names,
-    motion_names, interpolation_names;
+    loop_names, operator_names, stepping_names, explicit_names, yield_names, measure_names, direction_names,
+    axis_names, motion_names, interpolation_names;
 Direction direction_of(int index);  // into direction_names
 int index_of(const Direction& direction);
 

@@ -166,7 +166,8 @@ void write_numerics(std::ostream& out, const Case& c) {
       << "\ndiffusion_number = " << show(n.diffusion_number) << "\ntheta = " << show(n.theta)
       << "\nyield = " << name_of(yield_names, n.yield) << "\nyield_iterations = " << n.yield_iterations
       << "\nyield_augmentation = " << (n.yield_augmentation > 0 ? show(n.yield_augmentation) : "\"auto\"")
-      << "\nsolver = " << name_of(solver_names, n.solver) << "\ntolerance = " << show(n.tolerance)
+      << "\nsolver = " << name_of(solver_names, n.solver)
+      << "\nsolver_loop = " << name_of(loop_names, n.solver_loop) << "\ntolerance = " << show(n.tolerance)
       << "\nmax_iterations = " << n.max_iterations << "\nrelaxation = " << show(n.relaxation)
       << "\nskin = " << show(n.skin) << "\n\n";
 }

@@ -37,6 +37,14 @@ void warn_of_other_version(const FoundCheckpoint& found, Log& log) {
                 here.version + " (" + here.commit + "): the results may differ in their last digits");
 }
 
+// Throws InputError when the device is to repeat iterations and cannot.
+void require_loops(const Case& c) {
+  const std::string key = "numerics.solver_loop", missing = missing_for_loops();
+  if (c.numerics.solver_loop == SolverLoop::conditional && !missing.empty())
+    throw InputError(c.place_of(key) + ": key '" + key + "': value \"conditional\" needs " + missing +
+                     ": allowed: \"batch\"");
+}
+
 std::string already_there(const RunRecord& run, const Case& c) {
   return "the run has reached its end of " + std::to_string(c.output.end_time) + " s already, at " +
          std::to_string(run.time) + " s; --until SECONDS takes it further";
@@ -50,6 +58,7 @@ int RunOutcome::exit_code() const {
 }
 
 RunOutcome run_case(const Case& c, const RunOptions& options) {
+  require_loops(c);
   Case limited = c;
   if (options.until) limited.output.end_time = *options.until;
   if (options.threads > 0) set_threads(options.threads);
@@ -80,6 +89,7 @@ RunOutcome resume_run(const RunOptions& options) {
   FoundCheckpoint found = store.read_newest();
   require_same_build(found);
   Case c = parse_case(found.checkpoint.text("case_text"), found.path);
+  require_loops(c);
   if (options.until) c.output.end_time = *options.until;
 
   Log log(options.verbosity);

@@ -3,13 +3,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 
 #include "backend/device.hpp"
+#include "backend/platform.hpp"
 
 namespace slagflow {
+
+// Whether a loop that is steered by a number in memory takes another turn.
+HOST_DEVICE inline bool goes_on(const std::int32_t* flag) { return *flag != 0; }
 
 class Context {
  public:
@@ -40,6 +45,11 @@ class Context {
   void post_to_host(const void* device, std::size_t bytes);
   void read_posted(void* host, std::size_t bytes);
 
+  // Does what `body` launches again and again while the number on the device is not zero, and looks at it
+  // before each time. The device does so where launches are recorded for a graph: `body` may then launch
+  // kernels and copy on the device only. Otherwise the host does, and waits for each look.
+  void repeat_while(const std::int32_t* flag, const std::function<void()>& body);
+
   const DeviceCounts& counts() const { return counts_; }
   void count_launch() { ++(recording_ ? recorded_launches_ : counts_.launches); }
 
@@ -58,12 +68,14 @@ class Context {
  private:
   friend class LaunchGraph;
   void forbid_while_recording(const char* what) const;
+  void record_loop(const std::int32_t* flag, const std::function<void()>& body);
+  void swap_streams();  // launches go to the other stream: the body of a loop is recorded on one of its own
 
   struct Native;
   std::unique_ptr<Native> native_;
   std::size_t allocated_ = 0;
   DeviceCounts counts_;
-  bool recording_ = false;
+  bool recording_ = false, recorded_loop_ = false;
   std::int64_t recorded_launches_ = 0;
   std::uint64_t generation_ = 0;
   void* workspace_ = nullptr;

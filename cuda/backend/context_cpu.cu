@@ -81,6 +81,10 @@ void Context::copy_on_device(void* to, const void* from, std::size_t bytes) {
 }
 void Context::synchronize() {}
 
+void Context::repeat_while(const std::int32_t* flag, const std::function<void()>& body) {
+  while (goes_on(flag)) body();
+}
+
 void Context::begin(const char* label) { native_->timers[label].started = Clock::now(); }
 
 void Context::end(const char* label) {
@@ -112,6 +116,8 @@ DeviceInfo device_info() {
     }
   return info;
 }
+
+std::string missing_for_loops() { return {}; }
 
 void set_threads(int count) { omp_set_num_threads(count); }
 

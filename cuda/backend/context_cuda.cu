@@ -1,6 +1,7 @@
 #include <nvtx3/nvToolsExt.h>
 
 #include <cstring>
+#include <utility>
 
 #include "backend/check.hpp"
 #include "backend/context.hpp"
@@ -14,7 +15,7 @@ struct Context::Native {
     bool pending = false;
     double total = 0;
   };
-  cudaStream_t stream = nullptr;
+  cudaStream_t stream = nullptr, loop_stream = nullptr;
   void* staging = nullptr;  // pinned memory of the host
   std::map<std::string, Timer> timers;
 
@@ -31,6 +32,7 @@ struct Context::Native {
 
 Context::Context() : native_(std::make_unique<Native>()) {
   check(cudaStreamCreateWithFlags(&native_->stream, cudaStreamNonBlocking), "stream create");
+  check(cudaStreamCreateWithFlags(&native_->loop_stream, cudaStreamNonBlocking), "stream create");
   check(cudaMallocHost(&native_->staging, posted_bytes), "pinned memory");
 }
 
@@ -42,6 +44,7 @@ Context::~Context() {
     cudaEventDestroy(timer.stop);
   }
   cudaFreeHost(native_->staging);
+  cudaStreamDestroy(native_->loop_stream);
   cudaStreamDestroy(native_->stream);
 }
 
@@ -132,6 +135,18 @@ void Context::forbid_while_recording(const char* what) const {
   if (recording_) throw Error(std::string("CUDA: ") + what + ": not possible while launches are recorded");
 }
 
+void Context::repeat_while(const std::int32_t* flag, const std::function<void()>& body) {
+  if (recording_) return record_loop(flag, body);
+  for (;;) {
+    std::int32_t now = 0;
+    copy_to_host(&now, flag, sizeof now);
+    if (!goes_on(&now)) return;
+    body();
+  }
+}
+
+void Context::swap_streams() { std::swap(native_->stream, native_->loop_stream); }
+
 void Context::begin(const char* label) {
   nvtxRangePushA(label);
   if (recording_) return;
@@ -171,6 +186,12 @@ DeviceInfo device_info() {
   std::size_t available = 0, all = 0;
   check(cudaMemGetInfo(&available, &all), "device memory");
   return {"cuda", properties.name, 1, static_cast<double>(available)};
+}
+
+std::string missing_for_loops() {
+  int driver = 0;
+  check(cudaDriverGetVersion(&driver), "version of the driver");
+  return missing_for_loops(CUDART_VERSION, driver);
 }
 
 void set_threads(int) {}

@@ -22,6 +22,20 @@ struct DeviceCounts {
   std::int64_t graph_kernels = 0;
 };
 
+// What a device lacks to repeat launches on its own, by the CUDA versions of the toolkit and the driver as
+// CUDA numbers them (12040 is 12.4); empty: nothing.
+inline std::string missing_for_loops(int toolkit, int driver) {
+  constexpr int first = 12040;  // with conditional nodes that a kernel sets
+  const auto name = [](int version) {
+    return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
+  };
+  if (toolkit < first) return "CUDA 12.4 or newer; this program was built with CUDA " + name(toolkit);
+  if (driver < first) return "a driver for CUDA 12.4 or newer; this one is for CUDA " + name(driver);
+  return {};
+}
+// The same of what is here. A CPU build lacks nothing.
+std::string missing_for_loops();
+
 // Throws Error when a CUDA build finds no usable GPU.
 DeviceInfo device_info();
 

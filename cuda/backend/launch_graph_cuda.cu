@@ -5,11 +5,21 @@ namespace slagflow {
 
 struct LaunchGraph::Native {
   cudaGraphExec_t executable = nullptr;
+  cudaGraph_t looping = nullptr;  // the graph it was made of, where that has a loop
 
   ~Native() { drop(); }
   void drop() {
     if (executable) cudaGraphExecDestroy(executable);
-    executable = nullptr;
+    if (looping) cudaGraphDestroy(looping);
+    executable = nullptr, looping = nullptr;
+  }
+
+  // Kernels hold the handle of a loop, and that of another graph is another one: nothing is updated.
+  // Launching one by one in its place is not what was asked for.
+  void take_looping(cudaGraph_t graph) {
+    drop();
+    looping = graph;
+    check(cudaGraphInstantiate(&executable, graph, 0), "graph with a loop");
   }
 
   // Another step's graph mostly differs in the numbers of its kernels only. What the runtime cannot do it
@@ -36,6 +46,7 @@ bool LaunchGraph::record_anew(const std::function<void()>& record) {
     return false;
   }
   context_.recording_ = true;
+  context_.recorded_loop_ = false;
   context_.recorded_launches_ = 0;
   cudaGraph_t graph = nullptr;
   const auto end = [&] {
@@ -50,6 +61,10 @@ bool LaunchGraph::record_anew(const std::function<void()>& record) {
     throw;
   }
   check(end(), label_);
+  if (context_.recorded_loop_) {
+    native_->take_looping(graph);
+    return true;
+  }
   const bool taken = native_->take(graph);
   check(cudaGraphDestroy(graph), label_);
   return taken;

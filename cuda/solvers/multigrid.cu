@@ -207,7 +207,10 @@ struct ResidualAtEnd : Residual {
 }  // namespace
 
 Multigrid::Multigrid(Context& c)
-    : context_(c), dense_(c, "coarsest inverse"), preconditioned_(c, "preconditioned residual") {}
+    : context_(c),
+      dense_(c, "coarsest inverse"),
+      preconditioned_(c, "preconditioned residual"),
+      iterations_(c, "multigrid iterations") {}
 
 SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
                               Problem& problem) {
@@ -218,9 +221,11 @@ SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, 
   const auto product = work.product.span(), u = problem.u.span();
   SolveState* state = work.state();
   const double bound = limits.energy * least_eigenvalue;
-  launch(context_, "start again", 1, StartAgain{state, limits.max_iterations});
-  precondition(system, rows, r, z, JudgeEnergy{state, bound, true});
-  for (;;) {
+  const auto start = [&] {
+    launch(context_, "start again", 1, StartAgain{state, limits.max_iterations});
+    precondition(system, rows, r, z, JudgeEnergy{state, bound, true});
+  };
+  const auto go_on = [&] {
     for (int k = 0; k < at_a_time; ++k) {
       launch(context_, "direction", n, NewDirection{z, p, state});
       launch_reduction<AddUp>(context_, "multiply", n, while_running(state, Multiply{system, p, product}),
@@ -228,8 +233,27 @@ SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, 
       launch_reduction<AddUp>(context_, "advance", n, Advance{p, product, u, r, state}, JudgeResidual{state});
       precondition(system, rows, r, z, JudgeEnergy{state, bound, false});
     }
+  };
+  const auto find_residual = [&] {
     launch_reduction<AddUp>(context_, "residual", n, ResidualAtEnd{{system, u, r}, state},
                             KeepResidual{state});
+  };
+  if (limits.device_loop) {
+    constexpr int most_terms = 2;
+    reserve_reductions(context_, n, most_terms);
+    const auto most = static_cast<double>(limits.max_iterations), levels = static_cast<double>(used_);
+    iterations_.run({bound, most, levels}, [&] {
+      start();
+      context_.repeat_while(&state->running, go_on);
+      find_residual();
+      work.post(context_);
+    });
+    return work.read_posted(context_).solve;
+  }
+  start();
+  for (;;) {
+    go_on();
+    find_residual();
     const SolveState now = work.read(context_).solve;
     if (!now.running) return now;
   }

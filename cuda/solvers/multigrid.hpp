@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "backend/launch_graph.hpp"
 #include "solvers/coarse_matrix.hpp"
 #include "solvers/solver.hpp"
 
@@ -25,6 +26,9 @@ class Multigrid {
   };
   // Goes on from u until the residual is small enough, and leaves the true residual in the result.
   void solve(const LinearSystem&, const RowCells&, const SolveLimits&, Problem);
+
+  // Launches one by one from now on.
+  void launch_singly() { iterations_.launch_singly(); }
 
   // Sets up the coarse levels.
   void build(const LinearSystem&, const RowCells&);
@@ -54,6 +58,7 @@ class Multigrid {
   std::size_t used_ = 0;
   Buffer<double> dense_;  // inverse of the coarsest matrix
   Buffer<Quad> preconditioned_;
+  LaunchGraph iterations_;
   const SolveState* state_ = nullptr;  // of the solve under way
 };
 

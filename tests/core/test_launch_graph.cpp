@@ -5,11 +5,13 @@
 #include "backend/buffer.hpp"
 #include "backend/error.hpp"
 #include "backend/launch_graph.hpp"
+#include "graph_loops.hpp"
 
 namespace slagflow {
 namespace {
 
-bool on_gpu() { return device_info().backend == "cuda"; }
+using testing_tools::on_gpu;
+using testing_tools::records_loops;
 
 // Two buffers, a copy of one to the other that is recorded, and how often it was.
 struct Copies {
@@ -91,6 +93,76 @@ TEST(LaunchGraph, LaunchesSinglyWhenAsked) {
   EXPECT_EQ(copies.run({4, 5, 6}, 0), (std::vector<int>{4, 5, 6}));
   EXPECT_EQ(copies.recorded, 2);
   EXPECT_EQ(copies.context.counts().graph_launches, 0);
+}
+
+// A queue whose first number says whether it moves up another time.
+struct Queue {
+  Context context;
+  Buffer<std::int32_t> numbers{context, "numbers", 5}, rest{context, "rest", 4};
+  LaunchGraph graph{context, "queue"};
+  int turns = 0;
+
+  void turn() {
+    ++turns;
+    context.copy_on_device(rest.span().data, numbers.span().data + 1, 4 * sizeof(std::int32_t));
+    context.copy_on_device(numbers.span().data, rest.span().data, 4 * sizeof(std::int32_t));
+  }
+  void repeat() {
+    context.repeat_while(numbers.span().data, [this] { turn(); });
+  }
+  std::vector<std::int32_t> first_two() {
+    std::vector<std::int32_t> result;
+    numbers.download(result);
+    result.resize(2);
+    return result;
+  }
+};
+
+TEST(Loop, TakesATurnWhileTheNumberIsNotZero) {
+  Queue queue;
+  queue.numbers.upload({1, -1, 5, 0, 7});
+  queue.repeat();
+  EXPECT_EQ(queue.turns, 3);
+  EXPECT_EQ(queue.first_two(), (std::vector<std::int32_t>{0, 7}));
+  queue.repeat();
+  EXPECT_EQ(queue.turns, 3);
+}
+
+TEST(Loop, InAGraphDependsOnTheNumbersOfTheTime) {
+  if (!records_loops()) GTEST_SKIP() << "on a GPU, with SLAGFLOW_GRAPH_LOOPS=1";
+  Queue queue;
+  Buffer<std::int32_t> behind(queue.context, "behind", 5);
+  const auto run = [&](const std::vector<std::int32_t>& numbers) {
+    queue.numbers.upload(numbers);
+    queue.graph.run({}, [&] {
+      queue.repeat();
+      behind.copy_from(queue.numbers);
+    });
+    std::vector<std::int32_t> result;
+    behind.download(result);
+    EXPECT_EQ(result[0], 0);
+    return result[1];
+  };
+  EXPECT_EQ(run({1, 1, 0, 7, 0}), 7);
+  EXPECT_EQ(run({1, 1, 1, 0, 8}), 8);
+  EXPECT_EQ(run({0, 9, 1, 1, 1}), 9);
+  queue.context.arrange_anew();
+  EXPECT_EQ(run({1, 0, 6, 1, 1}), 6);
+  EXPECT_EQ(queue.turns, on_gpu() ? 2 : 6);
+  EXPECT_EQ(queue.context.counts().graph_launches, on_gpu() ? 4 : 0);
+}
+
+TEST(Loop, WhatCannotBeRecordedInItIsAnErrorAndTheContextGoesOn) {
+  if (!records_loops()) GTEST_SKIP() << "on a GPU, with SLAGFLOW_GRAPH_LOOPS=1";
+  Queue queue;
+  queue.numbers.upload({1, 0, 4, 0, 0});
+  EXPECT_THROW(
+      queue.graph.run(
+          {},
+          [&] { queue.context.repeat_while(queue.numbers.span().data, [] { throw Error("of its own"); }); }),
+      Error);
+  queue.graph.run({}, [&] { queue.repeat(); });
+  EXPECT_EQ(queue.first_two(), (std::vector<std::int32_t>{0, 4}));
 }
 
 TEST(LaunchGraph, PostedBytesArriveAsWithACopy) {

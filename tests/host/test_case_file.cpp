@@ -111,6 +111,7 @@ TEST(CaseFile, FillsInDefaults) {
   EXPECT_EQ(c.domain.departure, Departure::remove);
   EXPECT_EQ(c.numerics.sound_speed, 0);
   EXPECT_EQ(c.numerics.solver, ViscousSolver::multigrid);
+  EXPECT_EQ(c.numerics.solver_loop, SolverLoop::batch);
   EXPECT_DOUBLE_EQ(c.output.interval, 2.0 / 50);
   EXPECT_DOUBLE_EQ(c.output.history_interval, 2.0 / 500);
   EXPECT_TRUE(c.output.walls);
@@ -159,6 +160,41 @@ TEST(CaseFile, WrittenCaseIsTheSameCase) {
     EXPECT_EQ(c.body_force.y, again.body_force.y);
     EXPECT_EQ(c.measures.size(), again.measures.size());
   }
+}
+
+TEST(CaseFile, WrittenCaseHoldsTheLoopOfTheSolver) {
+  const std::string written = to_toml(parse_case(minimal, "a.toml", {"numerics.solver_loop=conditional"}));
+  EXPECT_EQ(parse_case(written, "b.toml").numerics.solver_loop, SolverLoop::conditional);
+}
+
+std::string message_of(const std::vector<std::string>& overrides) {
+  try {
+    parse_case(minimal, "a.toml", overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+// Key and value beside it, and what the message says of it.
+TEST(CaseFile, TheLoopOfTheSolverIsTheDevicesForSomeSolversOnly) {
+  struct Other {
+    const char *set, *said;
+  };
+  for (const Other& other : {Other{"numerics.solver=sor", "numerics.solver = \"sor\""},
+                             Other{"numerics.solver=jacobi", "numerics.solver = \"jacobi\""},
+                             Other{"numerics.scheme=paper", "numerics.solver = \"sor\""},
+                             Other{"numerics.viscous_step=explicit", "numerics.viscous_step = \"explicit\""},
+                             Other{"numerics.yield=exact", "numerics.yield = \"exact\""}}) {
+    EXPECT_NO_THROW(parse_case(minimal, "a.toml", {"numerics.solver_loop=batch", other.set}));
+    const std::string message = message_of({"numerics.solver_loop=conditional", other.set});
+    EXPECT_NE(message.find("key 'numerics.solver_loop': value \"conditional\" with " +
+                           std::string(other.said) + ": allowed: \"batch\""),
+              std::string::npos)
+        << message;
+  }
+  EXPECT_NE(message_of({"numerics.solver_loop=while"}).find("allowed: batch, conditional"),
+            std::string::npos);
 }
 
 TEST(CaseFile, WrittenCaseHoldsTheDefaults) {
