@@ -212,30 +212,38 @@ Multigrid::Multigrid(Context& c)
       preconditioned_(c, "preconditioned residual"),
       iterations_(c, "multigrid iterations") {}
 
-SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
-                              Problem& problem) {
+void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& rows, double bound,
+                                  Problem& problem) {
   constexpr int at_a_time = 2;
   const Index n = system.size;
   SolverWorkspace& work = problem.work;
   const auto r = work.residual.span(), p = work.direction.span(), z = preconditioned_.span();
-  const auto product = work.product.span(), u = problem.u.span();
+  const auto product = work.product.span();
+  SolveState* state = work.state();
+  for (int k = 0; k < at_a_time; ++k) {
+    launch(context_, "direction", n, NewDirection{z, p, state});
+    launch_reduction<AddUp>(context_, "multiply", n, while_running(state, Multiply{system, p, product}),
+                            JudgeDirection{state});
+    launch_reduction<AddUp>(context_, "advance", n, Advance{p, product, problem.u.span(), r, state},
+                            JudgeResidual{state});
+    precondition(system, rows, r, z, JudgeEnergy{state, bound, false});
+  }
+}
+
+SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
+                              Problem& problem) {
+  const Index n = system.size;
+  SolverWorkspace& work = problem.work;
+  const auto r = work.residual.span();
   SolveState* state = work.state();
   const double bound = limits.energy * least_eigenvalue;
   const auto start = [&] {
     launch(context_, "start again", 1, StartAgain{state, limits.max_iterations});
-    precondition(system, rows, r, z, JudgeEnergy{state, bound, true});
+    precondition(system, rows, r, preconditioned_.span(), JudgeEnergy{state, bound, true});
   };
-  const auto go_on = [&] {
-    for (int k = 0; k < at_a_time; ++k) {
-      launch(context_, "direction", n, NewDirection{z, p, state});
-      launch_reduction<AddUp>(context_, "multiply", n, while_running(state, Multiply{system, p, product}),
-                              JudgeDirection{state});
-      launch_reduction<AddUp>(context_, "advance", n, Advance{p, product, u, r, state}, JudgeResidual{state});
-      precondition(system, rows, r, z, JudgeEnergy{state, bound, false});
-    }
-  };
+  const auto go_on = [&] { launch_iterations(system, rows, bound, problem); };
   const auto find_residual = [&] {
-    launch_reduction<AddUp>(context_, "residual", n, ResidualAtEnd{{system, u, r}, state},
+    launch_reduction<AddUp>(context_, "residual", n, ResidualAtEnd{{system, problem.u.span(), r}, state},
                             KeepResidual{state});
   };
   if (limits.device_loop) {

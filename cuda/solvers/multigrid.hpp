@@ -45,6 +45,8 @@ class Multigrid {
 
   // Iterates anew from the residual at hand; the state tells how it ended, and the true residual.
   SolveState iterate(const LinearSystem&, const RowCells&, const SolveLimits&, Problem&);
+  // A few of them, which the state may end.
+  void launch_iterations(const LinearSystem&, const RowCells&, double bound, Problem&);
   template <class Finish>
   void precondition(const LinearSystem&, const RowCells&, Span<const Quad> r, Span<Quad> z, Finish);
   // While iterations go on.
