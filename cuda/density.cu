@@ -2,6 +2,7 @@
 #include "density.hpp"
 #include "lane_math.hpp"
 #include "smoothing/lucy.hpp"
+#include "walls/wall_tension.hpp"
 
 namespace slagflow {
 
@@ -67,7 +68,6 @@ struct DensityAndShear {
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
                    hydrostatic = in_lanes(centre.slope * c.flow.gravity);
-    const Real sticking = sticking_share(c, i);
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -90,10 +90,9 @@ struct DensityAndShear {
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure / c.flow.sound_speed_squared - centre.excess;
-      sums.diffusion -=
-          select(pressure > Lanes(-c.flow.tension_limit), weight * (difference + rest), Lanes(0));
+      sums.diffusion -= select(pressure > -wall_tension_limits(c, j), weight * (difference + rest), Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
-      const Lanes stick = sticking * no_slip_factor(pair, c.flow.spacing, other.w);
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
       const Lanes dissipated = Real(2) * stick * share * approach / (r2 + c.flow.softening);
       sums.shear -= select(other.w < Lanes(0), Lanes(0), dissipated);

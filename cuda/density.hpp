@@ -16,13 +16,8 @@ struct PairContext {
   Span<const FluidConstants> fluids;
   FlowConstants flow;
   PeriodicBox box;
-  Span<const Quad> capillary{};  // of surface_tension.hpp, xyz: acceleration [m/s^2], w: chi; empty without
+  Span<const Quad> capillary{};  // xyz: acceleration by surface tension [m/s^2]; empty without
 };
-
-// 1 - chi: how much of a wall's drag a fluid particle feels.
-HOST_DEVICE inline Real sticking_share(const PairContext& c, Index i) {
-  return c.capillary.size > 0 ? 1 - c.capillary[i].w : Real(1);
-}
 
 // Advances the density by dt with
 //   d rho_i/dt = rho_i sum_j V_j (v_i - v_j).grad W_ij

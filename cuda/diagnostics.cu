@@ -27,15 +27,17 @@ struct PotentialEnergy {
   }
 };
 
-// Of the equation of state: m c0^2 (rho - rho0)^2 / (2 rho0^2), where the pressure is not cut off.
+// Of the equation of state: m c0^2 (rho - rho0)^2 / (2 rho0^2), no more of it beyond the tension limit.
 struct ElasticEnergy {
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> kind;
   Span<const Quad> motion;
-  double sound_speed;
+  double sound_speed, tension_limit;
   HOST_DEVICE double operator()(Index i) const {
     const FluidConstants& f = fluids[kind[i]];
-    const double strain = larger(0.0, static_cast<double>(motion[i].w / f.rest_density));
+    const auto rest = static_cast<double>(f.rest_density);
+    const double least = -tension_limit / (rest * square(sound_speed));
+    const double strain = larger(least, static_cast<double>(motion[i].w) / rest);
     return 0.5 * static_cast<double>(f.mass) * square(sound_speed * strain);
   }
 };
@@ -207,7 +209,9 @@ Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstant
   const auto energy = reduce_terms<AddUp>(
       c, scratch, n,
       ThreeTerms<KineticEnergy, PotentialEnergy, ElasticEnergy>{
-          {fluids, kind, motion}, potential, {fluids, kind, motion, setup.numerics.sound_speed}});
+          {fluids, kind, motion},
+          potential,
+          {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit}});
   Vitals v;
   v.max_speed = std::sqrt(most.value[0]);
   v.max_compression = most.value[1];

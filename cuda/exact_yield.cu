@@ -73,7 +73,6 @@ struct PairLoop {
   template <class Visit>
   HOST_DEVICE void over_walls(Index i, Visit visit) const {
     const Vec3 x = xyz(c.fluid.place[i]);
-    const Real sticking = sticking_share(c, i);
     const Offset first = c.wall_list.row(i);
     for (Index k = 0; k < c.wall_list.length[i]; ++k) {
       const Offset at = first + k * ListView::stride();
@@ -83,9 +82,8 @@ struct PairLoop {
       const Quad motion = c.wall.velocity[j];
       Real g = 0;
       if (r2 < square(c.flow.support) && motion.w >= 0) {
-        const Real stick =
-            sticking * no_slip_factor(WallPairGeometry<Real, Quad>{d, c.wall.normal[j], c.wall.back[j]},
-                                      c.flow.spacing, motion.w);
+        const Real stick = no_slip_factor(WallPairGeometry<Real, Quad>{d, c.wall.normal[j], c.wall.back[j]},
+                                          c.flow.spacing, motion.w);
         g = wall_strain_factor(c.flow, stick, smoothing.gradient(std::sqrt(r2)), r2);
       }
       visit(at, xyz(motion), d, g);

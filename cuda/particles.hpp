@@ -54,6 +54,7 @@ struct WallArrays {
         velocity(c, "wall velocities"),
         acceleration(c, "wall accelerations"),
         pressure(c, "wall pressures"),
+        tension_limit(c, "tension limits of walls"),
         id(c, "wall ids") {}
 
   Index count = 0;
@@ -62,8 +63,9 @@ struct WallArrays {
   Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
   Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
   Buffer<Quad> velocity;  // xyz: velocity of the surface [m/s], w: slip length [m], 0 no slip, < 0 free slip
-  Buffer<Quad> acceleration;  // xyz: of the wall's material [m/s^2]; empty where no wall ever moves
-  Buffer<Real> pressure;      // [Pa]
+  Buffer<Quad> acceleration;   // xyz: of the wall's material [m/s^2]; empty where no wall ever moves
+  Buffer<Real> pressure;       // [Pa]
+  Buffer<Real> tension_limit;  // [Pa], by id; empty where all walls have the fluid's
   Buffer<Index> id;
 
   void resize(Index n) {
@@ -83,7 +85,8 @@ struct FluidView {
 struct WallView {
   Index count = 0;
   Span<const Quad> place, normal, back, velocity, acceleration;
-  Span<const Real> pressure;
+  Span<const Real> pressure, tension_limit;
+  Span<const Index> id;
 };
 
 inline FluidView view(const FluidArrays& f) {
@@ -92,8 +95,9 @@ inline FluidView view(const FluidArrays& f) {
 }
 
 inline WallView view(const WallArrays& w) {
-  return {w.count,           w.place.span(),        w.normal.span(),  w.back.span(),
-          w.velocity.span(), w.acceleration.span(), w.pressure.span()};
+  return {w.count,           w.place.span(),         w.normal.span(),
+          w.back.span(),     w.velocity.span(),      w.acceleration.span(),
+          w.pressure.span(), w.tension_limit.span(), w.id.span()};
 }
 
 }  // namespace slagflow

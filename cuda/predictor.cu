@@ -4,6 +4,7 @@
 #include "pair_viscosity.hpp"
 #include "predictor.hpp"
 #include "smoothing/lucy.hpp"
+#include "walls/wall_tension.hpp"
 
 namespace slagflow {
 
@@ -54,12 +55,16 @@ struct PredictAndAssemble {
     walls(i, x, own, total(acceleration), Vec3{own.w, own.w, own.w} + total(diagonal));
   }
 
+  HOST_DEVICE Lanes own_share(Index i, Real towards_fluid, const Index* walls) const {
+    if (!walls_have_tension_limits(c)) return towards_fluid;
+    return share_towards_walls(c, i, wall_tension_limits(c, walls));
+  }
+
   // `acceleration`: by the pressure of the fluid.
   HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Real factor =
         implicit_dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
-    const Real sticking_part = sticking_share(c, i);
     LaneVec3 push, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);
@@ -73,10 +78,11 @@ struct PredictAndAssemble {
       const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes density = rest_density + pressure / c.flow.sound_speed_squared;
-      push += (f * pair_pressure(c.flow, smoothing, Lanes(own.x), pressure / square(density), r)) * d;
+      push +=
+          (f * pair_pressure(c.flow, smoothing, own_share(i, own.x, j), pressure / square(density), r)) * d;
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
-      const Lanes stick = sticking_part * no_slip_factor(pair, c.flow.spacing, motion.w);
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
       const Lanes weight = -factor * stick * f / (r2 + c.flow.softening);
       const Lanes sticking = select(motion.w < Lanes(0), Lanes(0), weight);
       add_coupling(c.flow.coupling, sticking, d, coupled);

@@ -55,6 +55,7 @@ struct WallBody {
   WallSlip slip = WallSlip::no_slip;
   double slip_length = 0;     // [m], of partial slip
   double contact_angle = 90;  // [degrees], within a fluid with surface tension
+  double tension_limit = -1;  // [Pa], of its pairs with fluid, up to the numerics'; < 0: that
   // Of the material, along the surface; the shape stays where it is, as in belts and turning cylinders.
   RigidVelocity surface{};
   WallMotion motion{};

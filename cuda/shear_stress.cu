@@ -59,7 +59,6 @@ struct ShearStress {
   // A wall particle bears what a fluid particle in its place would.
   HOST_DEVICE void add_walls(Index i, LaneVec3 x, LaneVec3 v, Real factor,
                              SymmetricMatrix3<Lanes>& sum) const {
-    const Real sticking = sticking_share(c, i);
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -70,7 +69,7 @@ struct ShearStress {
       if (!bits(near)) continue;
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
-      const Lanes stick = sticking * no_slip_factor(pair, c.flow.spacing, motion.w);
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
       const Lanes f = select(near, smoothing.gradient(root(r2)), Lanes(0));
       const Lanes weight = factor * stick * f / (r2 + c.flow.softening);
       add(select(motion.w < Lanes(0), Lanes(0), weight), d, v - xyz(motion), sum);

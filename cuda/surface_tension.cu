@@ -39,7 +39,7 @@ struct Stress {
   Real wall_share;  // k_w/k
   Span<const Real> strength, cosine;
   Span<const Index> wall_id;
-  Span<Quad> normal_stress, shear_stress, wall_normal, wall_traction, acceleration;
+  Span<Quad> normal_stress, shear_stress, wall_normal, wall_traction;
 
   HOST_DEVICE void operator()(Index i) const {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
@@ -47,16 +47,12 @@ struct Stress {
     const Vec3 s = wall_gradient(i, x, wetted);
     const Vec3 n = fluid_gradient(i, x) + s;
     const Real k = strength[c.fluid.fluid[i]], size = std::sqrt(dot(s, s));
-    const Real wet = dot(s, wetted);
     const Symmetric3 stress = tension(k, n);
     const Vec3 out = size > 0 ? (1 / size) * s : Vec3{};
     normal_stress[i] = {stress.xx, stress.yy, stress.zz, stress.xy};
     shear_stress[i] = {stress.xz, stress.yz, 0, 0};
-    wall_normal[i] = quad(out, k * wall_share * wet / (size + noise));
+    wall_normal[i] = quad(out, k * wall_share * dot(s, wetted) / (size + noise));
     wall_traction[i] = quad(c.fluid.state[i].z * (stress * out), 0);
-    const Real n4 = square(dot(n, n) / square(noise));
-    const Real slips = size > 0 ? smaller(Real(1), 1 + wet / square(size)) : Real(0);
-    acceleration[i] = {0, 0, 0, slips * n4 / (n4 + 1)};
   }
 
   // factor (|n|^2 - n n)/(|n| + n0)
@@ -147,7 +143,7 @@ struct Divergence {
       sum += along_wall(xyz(wet), push * wet.w, d) + along_wall(in_lanes(xyz(wetted)), push * wetted.w, d);
     }
     const Quad own = c.fluid.state[i];
-    acceleration[i] = quad((-own.z / own.w) * total(sum) + (1 / own.w) * from_walls(i), acceleration[i].w);
+    acceleration[i] = quad((-own.z / own.w) * total(sum) + (1 / own.w) * from_walls(i), 0);
   }
 
   HOST_DEVICE Vec3 from_walls(Index i) const {
@@ -256,7 +252,7 @@ void SurfaceTension::update(const PairContext& c, Span<const Index> wall_id) {
     launch(context_, "capillary stress", n,
            Stress<Lucy, decltype(box)>{c, smoothing, box, noise, wall_share_, strength_.span(),
                                        cosine_.span(), wall_id, normal_stress_.span(), shear_stress_.span(),
-                                       wall_normal_.span(), wall_traction_.span(), acceleration_.span()});
+                                       wall_normal_.span(), wall_traction_.span()});
     launch(context_, "capillary acceleration", n,
            Divergence<Lucy, decltype(box)>{c, smoothing, weight, box, view(), acceleration_.span()});
   };

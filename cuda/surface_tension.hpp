@@ -63,9 +63,6 @@ HOST_DEVICE inline Vec3 capillary_pull(const CapillaryView& c, const TensionWeig
 // by Young's equation sigma_s - sigma_sl = sigma cos theta. Particles that push each other need a weight that
 // falls with the distance, -F, as those that pull need one that grows, K: with K the layer at the wall
 // clumped. Pairs carry momentum exactly. Only the fluid's side of a surface has particles.
-// A contact line cannot move over a wall where the fluid sticks, but by rolling, as at 180 degrees (C. Huh,
-// L. E. Scriven, J. Colloid Interface Sci. 35 (1971) 85): there the drag of walls is times 1 - chi,
-//   chi = min(1, 1 + cos theta) |n|^4/(|n|^4 + n0^4).
 class SurfaceTension {
  public:
   SurfaceTension(Context&, const SimulationSetup&);
@@ -75,7 +72,7 @@ class SurfaceTension {
   void reserve(Index count);
   // Sets stress and acceleration, after reserve(). `wall_id`: id of each wall particle.
   void update(const PairContext&, Span<const Index> wall_id);
-  Span<const Quad> acceleration() const { return acceleration_.span(); }  // xyz [m/s^2], w: chi
+  Span<const Quad> acceleration() const { return acceleration_.span(); }  // xyz [m/s^2]
   CapillaryView view() const;
 
   // What the stress does on the fluid at the velocities of a solve that has converged [W], to the record.

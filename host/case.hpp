@@ -81,6 +81,7 @@ struct WallSpec {
   WallSlip slip = WallSlip::no_slip;
   double slip_length = 0;     // [m], of partial slip
   double contact_angle = 90;  // [degrees]
+  double tension_limit = -1;  // [Pa], up to that of [numerics]; < 0: that
   RigidVelocity surface{};    // of the material along the surface
   WallMotion motion{};
   std::vector<ShapeSpec> shapes, subtract;

@@ -168,6 +168,17 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
   }
 }
 
+// Where a wall holds better than the fluid itself, the fluid parts beside the wall; and what such a wall
+// pulls in has no store of energy to come from.
+void check_tension_limits(const Case& c, CaseProblems& problems) {
+  for (std::size_t i = 0; i < c.walls.size(); ++i)
+    if (c.walls[i].tension_limit > c.numerics.tension_limit)
+      problems.add("wall." + std::to_string(i) + ".tension_limit",
+                   "value " + show(c.walls[i].tension_limit) +
+                       ": allowed: up to what the fluid bears, numerics.tension_limit = " +
+                       show(c.numerics.tension_limit) + " [Pa]");
+}
+
 // The exact yield stress is the minimum of an energy: one of an implicit Euler step with the radial operator.
 void check_exact_yield(const Case& c, CaseProblems& problems) {
   const NumericsSetup& n = c.numerics;
@@ -206,6 +217,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_periodic(c, problems);
   check_measures(c, problems);
   check_stop(c, problems);
+  check_tension_limits(c, problems);
   check_exact_yield(c, problems);
   check_solver_loop(c, problems);
 }

@@ -99,6 +99,8 @@ void read_walls(CaseTable& top, Case& c) {
     check_unique(t, c.walls, wall.name);
     read_slip(t, wall);
     t.read("contact_angle", wall.contact_angle, between(0, 180, "degrees"));
+    if (!t.says("tension_limit", "auto"))
+      t.read("tension_limit", wall.tension_limit, at_least(0, "Pa, or \"auto\""));
     read_surface(t, wall);
     read_motion(t, wall.motion);
     read_shapes(t, "shapes", Need::required, c.file, wall.shapes);

@@ -142,7 +142,8 @@ void write_walls(std::ostream& out, const Case& c) {
   for (const WallSpec& wall : c.walls) {
     out << "[[wall]]\nname = " << quoted(wall.name) << "\nslip = " << name_of(slip_names, wall.slip);
     if (wall.slip == WallSlip::partial_slip) out << "\nslip_length = " << show(wall.slip_length);
-    out << "\ncontact_angle = " << show(wall.contact_angle);
+    out << "\ncontact_angle = " << show(wall.contact_angle)
+        << "\ntension_limit = " << (wall.tension_limit < 0 ? quoted("auto") : show(wall.tension_limit));
     if (wall.slip != WallSlip::free_slip)
       out << "\nsurface_velocity = " << text_of(wall.surface.velocity)
           << "\nsurface_angular_velocity = " << text_of(wall.surface.angular_velocity)

@@ -96,8 +96,8 @@ BuiltCase build_setup(const Case& c) {
   setup.particles = std::move(filling.fluid);
   setup.walls = std::move(filling.walls);
   for (const WallSpec& wall : c.walls)
-    setup.bodies.push_back(
-        {wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.surface, wall.motion});
+    setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.tension_limit,
+                            wall.surface, wall.motion});
   setup.domain = c.domain;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
   setup.numerics = built.resolved.numerics;

@@ -68,6 +68,7 @@ struct Wall {
   bool sticks = true;
   double slip_length = 0;  // Navier's, of a wall that sticks in part
   Vec acceleration;
+  double tension_limit = -1;  // < 0: the world's
 };
 
 struct World {
@@ -82,6 +83,12 @@ struct World {
 
   const Fluid& kind(const Particle& p) const { return fluids[static_cast<std::size_t>(p.fluid)]; }
   double density(const Particle& p) const { return kind(p).rest_density + p.excess; }
+  double limit(const Wall& wall) const { return wall.tension_limit < 0 ? tension_limit : wall.tension_limit; }
+  // Of a particle, towards a wall with a limit of its own.
+  double pressure_towards(const Wall& wall, const Particle& p) const {
+    return wall.tension_limit < 0 ? p.pressure
+                                  : std::max(sound_speed * sound_speed * p.excess, -wall.tension_limit);
+  }
   double wall_volume() const { return std::pow(spacing, dimensions); }
   double softening() const { return 1e-6 * support * support; }
 };
@@ -146,7 +153,8 @@ inline Sum density_rate(const World& w, std::size_t i) {
     pair(d, j.volume, j.v, j.excess, -0.5 * (p.by_pressure + j.by_pressure));
   });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
-    pair(d, w.wall_volume(), j.v, j.pressure / c2, w.gravity - j.acceleration);
+    const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
+    pair(d, w.wall_volume(), j.v, cut ? p.excess : j.pressure / c2, cut ? Vec{} : w.gravity - j.acceleration);
   });
   return sum;
 }
@@ -187,31 +195,32 @@ inline Sum wall_pressure(const World& w, const Wall& wall) {
       const double weight = lucy(length(d), w.support, w.dimensions);
       const double head = w.density(p) * dot(w.gravity - wall.acceleration, d);
       weights += weight;
-      sum.add(weight * (p.pressure + head), weight * (std::fabs(p.pressure) + std::fabs(head)));
+      const double pressure = w.pressure_towards(wall, p);
+      sum.add(weight * (pressure + head), weight * (std::fabs(pressure) + std::fabs(head)));
     });
   if (weights <= 0) return {};
-  return {{std::max(sum.value.x / weights, -w.tension_limit), 0, 0}, sum.size / weights};
+  return {{std::max(sum.value.x / weights, -w.limit(wall)), 0, 0}, sum.size / weights};
 }
 
 // Acceleration by gravity, body force and pressure, with the term that keeps pairs apart.
 inline Sum acceleration(const World& w, std::size_t i) {
   const Particle& p = w.particles[i];
-  const double own = p.pressure / std::pow(w.density(p), 2);
   const double at_spacing = lucy(w.spacing, w.support, w.dimensions);
   Sum sum;
+  auto share = [&](double pressure, const Particle& a) { return pressure / std::pow(w.density(a), 2); };
   sum.add(w.gravity + w.body_acceleration, length(w.gravity) + length(w.body_acceleration));
-  auto pair = [&](Vec d, double mass, double other) {
+  auto pair = [&](Vec d, double mass, double own, double other) {
     const double r = length(d), ratio = lucy(r, w.support, w.dimensions) / at_spacing;
     const double pairing = w.anti_pairing * std::max(0.0, std::pow(ratio, 4) - 1);
     const double sizes = std::fabs(own) + std::fabs(other);
     const double f = slope_over_distance(w, r);
     sum.add(-mass * (own + other + pairing * sizes) * f * d, mass * (1 + pairing) * sizes * -f * r);
   };
-  for_fluid_pairs(w, i,
-                  [&](const Particle& j, Vec d) { pair(d, j.mass, j.pressure / std::pow(w.density(j), 2)); });
+  for_fluid_pairs(
+      w, i, [&](const Particle& j, Vec d) { pair(d, j.mass, share(p.pressure, p), share(j.pressure, j)); });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
     const double density = w.kind(p).rest_density + j.pressure / (w.sound_speed * w.sound_speed);
-    pair(d, p.mass, j.pressure / (density * density));
+    pair(d, p.mass, share(w.pressure_towards(j, p), p), j.pressure / (density * density));
   });
   return sum;
 }

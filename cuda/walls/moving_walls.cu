@@ -46,6 +46,18 @@ Quad surface_velocity(const WallBody& body, Vec3d position, Vec3d normal, double
   return quad(to_real(v), static_cast<Real>(slip));
 }
 
+// Of each wall particle [Pa]; empty where all have the fluid's.
+std::vector<Real> tension_limits(const SimulationSetup& setup) {
+  const double fluid = setup.numerics.tension_limit;
+  auto limit = [&](const WallBody& b) { return b.tension_limit < 0 ? fluid : b.tension_limit; };
+  const auto differs = [&](const WallBody& b) { return limit(b) != fluid; };
+  if (std::none_of(setup.bodies.begin(), setup.bodies.end(), differs)) return {};
+  std::vector<Real> result;
+  for (const std::uint8_t body : setup.walls.body)
+    result.push_back(static_cast<Real>(limit(setup.bodies[body])));
+  return result;
+}
+
 }  // namespace
 
 MovingWalls::MovingWalls(Context& c)
@@ -83,6 +95,7 @@ void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
   wall.place.upload(place), wall.normal.upload(normal), wall.back.upload(back);
   wall.velocity.upload(velocity), wall.id.upload(id);
   wall.pressure.upload(std::vector<Real>(n));
+  wall.tension_limit.upload(tension_limits(setup));
   body_.upload(w.body);
   if (!any_) return;
   wall.acceleration.upload(std::vector<Quad>(n));

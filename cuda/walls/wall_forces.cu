@@ -2,6 +2,7 @@
 #include "pair_pressure.hpp"
 #include "smoothing/lucy.hpp"
 #include "walls/wall_forces.hpp"
+#include "walls/wall_tension.hpp"
 
 namespace slagflow {
 
@@ -41,14 +42,16 @@ struct AddImpulse {
     const Real r = std::sqrt(r2), f = smoothing.gradient(r);
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
     const Real other = wall_pressure_share(c.flow, c.wall.pressure[w], rest_density);
-    const Real push = -dt * own.w * own.w * pair_pressure(c.flow, smoothing, own.x, other, r) * f;
+    const Real share =
+        walls_have_tension_limits(c) ? share_towards_walls(c, i, wall_tension_limit(c, w)) : own.x;
+    const Real push = -dt * own.w * own.w * pair_pressure(c.flow, smoothing, share, other, r) * f;
     Vec3d pressure = to_double(push * d);
     if (capillary.any())
       pressure += to_double(dt * capillary_pull(capillary, tension_weight, i, d, r, c.flow.wall_volume));
     Vec3d viscous;
     if (wall.w >= 0) {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
-      const Real stick = sticking_share(c, i) * no_slip_factor(pair, c.flow.spacing, wall.w);
+      const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
       const Real factor =
           dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
       const Real weight = -factor * stick * f / (r2 + c.flow.softening);

@@ -2,6 +2,7 @@
 #include "lane_math.hpp"
 #include "smoothing/lucy.hpp"
 #include "walls/wall_pressure.hpp"
+#include "walls/wall_tension.hpp"
 
 namespace slagflow {
 
@@ -19,20 +20,26 @@ struct WallPressure {
     const LaneVec3 x = in_lanes(xyz(c.wall.place[w])), gravity = in_lanes(felt_gravity(w));
     const Offset first = list.row(w);
     const Index entries = list.length[w];
+    const Real limit = wall_tension_limit(c, w);
     Lanes weights = 0, sum = 0;
     for (Index k = 0; k < entries; k += lane_count) {
       const Index* f = &list.entry[first + k * ListView::stride()];
       const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, f)));
       const Lanes weight = select(first_lanes(entries - k), smoothing.value(root(dot(d, d))), Lanes(0));
       weights += weight;
-      sum += weight * (gather(c.fluid.pressure, f) + density(f) * dot(gravity, d));
+      sum += weight * (fluid_pressure(f, limit) + density(f) * dot(gravity, d));
     }
     const Real all = total(weights);
-    pressure[w] = all > 0 ? larger(total(sum) / all, -c.flow.tension_limit) : Real(0);
+    pressure[w] = all > 0 ? larger(total(sum) / all, -limit) : Real(0);
   }
 
   HOST_DEVICE Vec3 felt_gravity(Index w) const {
     return c.wall.acceleration.size > 0 ? c.flow.gravity - xyz(c.wall.acceleration[w]) : c.flow.gravity;
+  }
+
+  HOST_DEVICE Lanes fluid_pressure(const Index* f, Real limit) const {
+    if (!walls_have_tension_limits(c)) return gather(c.fluid.pressure, f);
+    return larger(c.flow.sound_speed_squared * gather(c.fluid.motion, f).w, Lanes(-limit));
   }
 
   HOST_DEVICE Lanes density(const Index* f) const {

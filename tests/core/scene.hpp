@@ -152,7 +152,18 @@ class Scene {
   Ordering ordering;
   NeighbourList fluid_list, wall_list, wall_to_fluid;
   DepartureCounts departed;
-  bool walls_accelerate = false;
+  bool walls_accelerate = false, walls_have_limits = false;
+
+  // Walls bear 0, 15 or 40 Pa, the fluid 40; a quarter of their pressures is at the limit.
+  void give_walls_limits() {
+    walls_have_limits = true;
+    int k = 0;
+    for (reference::Wall& w : world.walls) {
+      const double limits[] = {0, 15, 40};
+      w.tension_limit = limits[k++ % 3];
+      w.pressure = k % 4 == 0 ? -w.tension_limit : std::max(w.pressure, -w.tension_limit);
+    }
+  }
 
  private:
   static SimulationSetup make_setup(const SceneOptions& o) {
@@ -264,7 +275,7 @@ class Scene {
   void upload_walls() {
     std::vector<Quad> place, normal, back, velocity, acceleration;
     std::vector<Index> id;
-    std::vector<Real> pressure;
+    std::vector<Real> pressure, tension_limit;
     for (reference::Wall& w : world.walls) {
       w.x = rounded(w.x), w.v = rounded(w.v), w.depth = rounded(w.depth), w.pressure = rounded(w.pressure);
       w.back_depth = rounded(w.back_depth), w.slip_length = rounded(w.slip_length);
@@ -272,6 +283,7 @@ class Scene {
       back.push_back(to_device(w.back_normal, w.back_depth));
       velocity.push_back(to_device(w.v, w.sticks ? w.slip_length : -1));
       w.acceleration = rounded(w.acceleration), acceleration.push_back(to_device(w.acceleration, 0));
+      tension_limit.push_back(static_cast<Real>(world.limit(w)));
       pressure.push_back(static_cast<Real>(w.pressure)), id.push_back(static_cast<Index>(id.size()));
     }
     wall.resize(static_cast<Index>(id.size()));
@@ -279,6 +291,7 @@ class Scene {
         wall.velocity.upload(velocity);
     wall.pressure.upload(pressure), wall.id.upload(id);
     if (walls_accelerate) wall.acceleration.upload(acceleration);
+    if (walls_have_limits) wall.tension_limit.upload(tension_limit);
   }
 
   template <class T>

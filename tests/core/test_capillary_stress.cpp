@@ -1,4 +1,4 @@
-// Acceleration by surface tension and slip at contact lines against sums over all pairs in double precision.
+// Acceleration by surface tension against sums over all pairs in double precision.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,12 +13,13 @@ using namespace testing_tools;
 using reference::Vec;
 
 constexpr double pi = 3.14159265358979323846;
+// Of a sum, over the sizes of its terms: some ten operations to a term, and as many terms in a lane.
+constexpr double rounding = 20 * epsilon;
 
 // What surface_tension.hpp says of one particle.
 struct Capillary {
   Vec n, s, t;
-  double wetted = 0, push = 0, chi = 0, k = 0;
-  double size = 0;  // of the terms of n
+  double push = 0, k = 0;
   Vec stress(double noise, Vec d) const {
     const double size_n = std::sqrt(dot(n, n));
     return k / (size_n + noise) * (dot(n, n) * d - dot(n, d) * n);
@@ -31,9 +32,6 @@ class Oracle {
   Oracle(const Scene& scene) : w_(scene.world), setup_(scene.setup), noise_(colour_noise / w_.support) {
     for (std::size_t i = 0; i < w_.particles.size(); ++i) particles_.push_back(of(i));
   }
-
-  const Capillary& at(std::size_t i) const { return particles_[i]; }
-  double noise() const { return noise_; }
 
   reference::Sum acceleration(std::size_t i) const {
     const reference::Particle& p = w_.particles[i];
@@ -67,28 +65,23 @@ class Oracle {
 
   Capillary of(std::size_t i) const {
     Capillary c;
-    reference::for_fluid_pairs(w_, i, [&](const reference::Particle& j, Vec d) {
-      c.n = c.n + j.volume * slope(d) * d;
-      c.size += j.volume * std::fabs(slope(d)) * length(d);
-    });
+    reference::for_fluid_pairs(
+        w_, i, [&](const reference::Particle& j, Vec d) { c.n = c.n + j.volume * slope(d) * d; });
     Vec with_cosine;
     reference::for_wall_pairs(w_, i, [&](const reference::Wall& wall, Vec d) {
       const Vec term = w_.wall_volume() * slope(d) * d;
       const auto body = setup_.walls.body[static_cast<std::size_t>(&wall - w_.walls.data())];
       c.s = c.s + term,
       with_cosine = with_cosine + std::cos(pi / 180 * setup_.bodies[body].contact_angle) * term;
-      c.size += length(term);
     });
     c.n = c.n + c.s;
     const double sigma = setup_.fluids[static_cast<std::size_t>(w_.particles[i].fluid)].surface_tension;
     c.k = sigma / plane_surface_tension(w_.dimensions);
-    const double size = length(c.s), cosine = size > 0 ? dot(c.s, with_cosine) / (size * size) : -1;
+    const double size = length(c.s);
     if (size > 0) {
       c.t = 1 / size * c.s;
-      c.push = sigma / plane_wall_tension(w_.dimensions) * cosine * size * size / (size + noise_);
+      c.push = sigma / plane_wall_tension(w_.dimensions) * dot(c.s, with_cosine) / (size + noise_);
     }
-    const double q = dot(c.n, c.n) / (noise_ * noise_);
-    c.chi = std::min(1.0, 1 + cosine) * q * q / (q * q + 1);
     return c;
   }
 
@@ -118,17 +111,10 @@ TEST_P(CapillaryStressIn, MatchesTheSumsOverAllPairs) {
   tension.update(scene.pairs(), scene.wall.id.span());
   const std::vector<Quad> found = scene.by_id(tension.acceleration());
   const Oracle oracle(scene);
-  int slip = 0, stick = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const reference::Sum exact = oracle.acceleration(i);
-    EXPECT_LT(length(to_host(found[i]) - exact.value), 200 * epsilon * exact.size) << i;
-    const Capillary& c = oracle.at(i);
-    // chi changes by at most 1.6 for a change of |n| by n0.
-    EXPECT_NEAR(static_cast<double>(found[i].w), c.chi, 1.6 * 20 * epsilon * c.size / oracle.noise()) << i;
-    slip += c.chi > 0.5, stick += length(c.s) > 0 && c.chi < 0.5;
+    EXPECT_LT(length(to_host(found[i]) - exact.value), rounding * exact.size) << i;
   }
-  EXPECT_GT(slip, 5);
-  EXPECT_GT(stick, 5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dimensions, CapillaryStressIn, testing::Values(2, 3));

@@ -62,6 +62,20 @@ TEST_P(Density, RateMatchesOracleWhereWallsAccelerate) {
   }
 }
 
+// A wall particle at its own limit has no density to diffuse towards.
+TEST_P(Density, RateMatchesOracleWhereWallsHaveLimits) {
+  scene_.give_walls_limits();
+  const double dt = 1e-3;
+  advance(dt);
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    const auto& p = scene_.world.particles[i];
+    const reference::Sum rate = reference::density_rate(scene_.world, i);
+    EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + dt * rate.value.x,
+                rounding * dt * rate.size + 2 * epsilon * std::fabs(p.excess))
+        << "particle " << i;
+  }
+}
+
 TEST_P(Density, ShearRateMatchesOracle) {
   for (auto& wall : scene_.world.walls) wall.v = {0.2, 0, -0.1};
   advance(1e-3);

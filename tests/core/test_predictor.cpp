@@ -29,6 +29,24 @@ TEST_P(Predictor, VelocityMatchesOracle) {
   }
 }
 
+TEST_P(Predictor, VelocityMatchesOracleWhereWallsHaveLimits) {
+  const HostSystem common = assemble(scene_, dt, 1);
+  scene_.give_walls_limits();
+  const HostSystem system = assemble(scene_, dt, 1);
+  int changed = 0;
+  for (std::size_t i = 0; i < system.predicted.size(); ++i) {
+    const auto& p = scene_.world.particles[i];
+    const reference::Sum a = reference::acceleration(scene_.world, i);
+    const reference::Vec error = to_host(system.predicted[i]) - (p.v + dt * a.value);
+    EXPECT_LT(reference::length(error), rounding * dt * a.size + 4 * epsilon * reference::length(p.v))
+        << "particle " << i;
+    changed += !(xyz(system.predicted[i]) == xyz(common.predicted[i]));
+  }
+  if (!scene_.world.walls.empty()) {
+    EXPECT_GT(changed, 10);
+  }
+}
+
 TEST_P(Predictor, AccelerationByPressureIsAllButGravityAndBodyForce) {
   const HostSystem system = assemble(scene_, dt, 1);
   const reference::Vec rest = scene_.world.gravity + scene_.world.body_acceleration;

@@ -66,6 +66,23 @@ TEST_P(WallPressure, IsCutOffAtTheTensionLimit) {
   EXPECT_EQ(*std::min_element(pressure.begin(), pressure.end()), Real(-40));
 }
 
+TEST_P(WallPressure, MatchesOracleWhereWallsHaveLimits) {
+  Scene scene(GetParam());
+  scene.give_walls_limits();
+  scene.world.gravity = {}, scene.flow.gravity = {};
+  for (auto& p : scene.world.particles) p.excess = std::min(p.excess, -2.0);
+  const auto pressure = extrapolate(scene);
+  int cut = 0;
+  for (std::size_t w = 0; w < pressure.size(); ++w) {
+    const reference::Sum wanted = reference::wall_pressure(scene.world, scene.world.walls[w]);
+    EXPECT_NEAR(static_cast<double>(pressure[w]), wanted.value.x, rounding * wanted.size)
+        << "wall particle " << w;
+    const double limit = scene.world.walls[w].tension_limit;
+    cut += limit > 0 && limit < 40 && static_cast<double>(pressure[w]) < -limit * (1 - rounding);
+  }
+  EXPECT_GT(cut, 3);
+}
+
 TEST_P(WallPressure, IsZeroFarFromTheFluid) {
   Scene scene(GetParam());
   for (auto& p : scene.world.particles) p.x.x = 0.05, p.x.z = 0.05;

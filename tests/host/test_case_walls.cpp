@@ -59,9 +59,28 @@ TEST(CaseWalls, SlipAndSurfaceReachTheSetup) {
   EXPECT_TRUE(body.surface.at({6, 6, 0}) == (Vec3d{1, 6, 0}));
 }
 
+TEST(CaseWalls, BearAsMuchTensionAsTheFluidOrLess) {
+  const std::string fluid = "[numerics]\ntension_limit = 20\n";
+  auto limit = [&](const std::string& keys) {
+    return build_setup(read(keys + fluid)).setup.bodies.at(0).tension_limit;
+  };
+  EXPECT_EQ(limit(""), -1);
+  EXPECT_EQ(limit("tension_limit = 'auto'\n"), -1);
+  EXPECT_EQ(limit("tension_limit = 5\n"), 5);
+  EXPECT_EQ(limit("tension_limit = 20\n"), 20);
+  EXPECT_THAT(
+      message_of("tension_limit = 21\n" + fluid),
+      testing::HasSubstr("key 'wall.0.tension_limit': value 21.0: allowed: up to what the fluid bears, "
+                         "numerics.tension_limit = 20.0 [Pa]"));
+  EXPECT_THAT(message_of("tension_limit = -1"),
+              testing::HasSubstr("value -1 is out of range: allowed: a number >= 0.0 [Pa, or \"auto\"]"));
+  EXPECT_THAT(message_of("tension_limit = 'none'"), testing::HasSubstr("[Pa, or \"auto\"]"));
+}
+
 TEST(CaseWalls, AreTheSameWrittenAndReadAgain) {
   for (const char* keys :
-       {"", "slip = 'free_slip'", "slip = 'partial_slip'\nslip_length = 0.1",
+       {"", "slip = 'free_slip'", "tension_limit = 'auto'", "tension_limit = 0",
+        "slip = 'partial_slip'\nslip_length = 0.1",
         "surface_velocity = [1, 2, 3]\nsurface_center = [0, 0, 1e-3]", "remove_at = 0.25",
         "motion = {type='constant', velocity=[0,0,0.1], angular_velocity=[0,1,0], center=[1,2,3]}",
         "motion = {type='ramp', velocity=[0,0,0.1], duration=0.3, start=0.1, stop=0.7}",

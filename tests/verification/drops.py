@@ -110,5 +110,5 @@ MISSES = {
     "10 in a radius: pressure, (d − 1) σ/R [Pa]":
         "tension acts 0.8 spacings below the surface, 9 %; the rest falls as the lattice of the start melts",
     "20 in a radius, 2-D: contact angle, wall of 120° [°]":
-        "what wall particles push along the wall at the contact line; over 120° also the lattice strength of the tensions",
+        "not found; with free slip and walls that cannot push along themselves it is still 125° to 127°",
 }

@@ -9,7 +9,7 @@ NAME = "meniscus"
 TITLE = "silicone oil between walls of 60° and 120°"
 WIDTH = 0.03  # [m]
 ANGLES = (60, 120)  # [degrees]
-ON_A_DROP = {60: 59.9, 120: 125.1}  # what a drop makes of them at 20 in its radius [degrees]
+ON_A_DROP = {60: 61.3, 120: 128.4}  # what a drop makes of them at 20 in its radius [degrees]
 
 
 def runs(quick):
@@ -103,8 +103,9 @@ def draw(axes, results):
     axes.legend(fontsize=6)
 
 
-CAUSE = "1° of the angle at the wall is 3 % of the rise, and the angle is off by 2 to 5°, more on coarse lattices"
+CAUSE = "contact lines stick to a wall without slip: with it 64.5° and 118.4°; 1° of the angle is 3 % of the rise"
 MISSES = {f"{scale} in a capillary length: {quantity.format(angle)}": CAUSE
           for scale, quantities in (("7.5", ("rise at a wall of {}° [m]", "contact angle that fits it, wall of {}° [°]")),
                                     ("15", ("rise at a wall of {}° [m]",)))
           for angle in ANGLES for quantity in quantities}
+MISSES["15 in a capillary length: contact angle that fits it, wall of 60° [°]"] = CAUSE
