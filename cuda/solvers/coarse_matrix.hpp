@@ -19,6 +19,10 @@ struct CoarseView {
   HOST_DEVICE const double* kept(Index i, int slot) const {
     return block.data + (static_cast<Offset>(i) * kept_slots + slot - own_slot) * block_entries;
   }
+  // The block that couples aggregate i to `other`, which stands in `slot`: by columns below own_slot.
+  HOST_DEVICE const double* entries(Index i, int slot, Index other) const {
+    return slot >= own_slot ? kept(i, slot) : kept(other, neighbour_slots - 1 - slot);
+  }
   // Entry of the block that couples motion a of aggregate i to motion b of the one in `slot`.
   HOST_DEVICE double entry(Index i, int slot, int a, int b) const {
     if (slot >= own_slot) return kept(i, slot)[a * motions + b];

@@ -89,22 +89,28 @@ struct ProlongToParts {
   }
 };
 
-// rest = force - A z, one row of a block row each.
+// rest = force - A z, some rows of a block row each: one on a GPU, all on a CPU, which adds up several rows in
+// the time of one.
 struct CoarseResidual {
+  static constexpr int rows = lane_count == 1 ? 1 : motions;
   CoarseView matrix;
   Span<const double> force, motion;
   Span<double> rest;
-  HOST_DEVICE void operator()(Index row) const {
-    const Index a = row / motions;
-    const int k = row % motions;
-    double sum = force[row];
+  HOST_DEVICE void operator()(Index n) const {
+    const Offset first = static_cast<Offset>(n) * rows, a = first / motions;
+    const int k = static_cast<int>(first % motions);
+    double sum[rows];
+    for (int r = 0; r < rows; ++r) sum[r] = force[first + r];
     for (int slot = 0; slot < neighbour_slots; ++slot) {
-      const Index other = matrix.aggregates.neighbour[static_cast<Offset>(a) * neighbour_slots + slot];
+      const Index other = matrix.aggregates.neighbour[a * neighbour_slots + slot];
       if (other < 0) continue;
       const double* z = motion.data + static_cast<Offset>(other) * motions;
-      for (int l = 0; l < motions; ++l) sum -= matrix.entry(a, slot, k, l) * z[l];
+      const double* block = matrix.entries(static_cast<Index>(a), slot, other);
+      const int down = slot < own_slot ? 1 : motions, across = slot < own_slot ? motions : 1;
+      for (int l = 0; l < motions; ++l)
+        for (int r = 0; r < rows; ++r) sum[r] -= block[(k + r) * down + l * across] * z[l];
     }
-    rest[row] = sum;
+    for (int r = 0; r < rows; ++r) rest[first + r] = sum[r];
   }
 };
 
@@ -310,7 +316,7 @@ void Multigrid::launch_level(const char* label, Index n, const Body& body) {
 
 void Multigrid::residual(Level& level) {
   launch_level(
-      "coarse residual", static_cast<Index>(level.force.size()),
+      "coarse residual", static_cast<Index>(level.force.size()) / CoarseResidual::rows,
       CoarseResidual{level.matrix.view(), level.force.span(), level.motion.span(), level.rest.span()});
 }
 
