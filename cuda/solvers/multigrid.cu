@@ -89,8 +89,8 @@ struct ProlongToParts {
   }
 };
 
-// rest = force - A z, some rows of a block row each: one on a GPU, all on a CPU, which adds up several rows in
-// the time of one.
+// rest = force - A z, some rows of a block row each: one on a GPU, all on a CPU, which adds up several rows
+// in the time of one.
 struct CoarseResidual {
   static constexpr int rows = lane_count == 1 ? 1 : motions;
   CoarseView matrix;
