@@ -23,6 +23,17 @@ class Density : public testing::TestWithParam<SceneOptions> {
     shear_rate_ = scene_.by_id(Span<const Real>(scene_.fluid.shear_rate.span()));
   }
 
+  // Of the step of dt that was made: those of the oracle's world.
+  void expect_rates(const reference::World& world, double dt) const {
+    for (std::size_t i = 0; i < motion_.size(); ++i) {
+      const auto& p = scene_.world.particles[i];
+      const reference::Sum rate = reference::density_rate(world, i);
+      EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + dt * rate.value.x,
+                  rounding * dt * rate.size + 2 * epsilon * std::fabs(p.excess))
+          << "particle " << i;
+    }
+  }
+
   Scene scene_;
   Buffer<Real> scratch_;
   std::vector<Quad> motion_, state_, place_;
@@ -32,13 +43,7 @@ class Density : public testing::TestWithParam<SceneOptions> {
 TEST_P(Density, RateMatchesOracle) {
   const double dt = 1e-3;
   advance(dt);
-  for (std::size_t i = 0; i < motion_.size(); ++i) {
-    const auto& p = scene_.world.particles[i];
-    const reference::Sum rate = reference::density_rate(scene_.world, i);
-    EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + dt * rate.value.x,
-                rounding * dt * rate.size + 2 * epsilon * std::fabs(p.excess))
-        << "particle " << i;
-  }
+  expect_rates(scene_.world, dt);
 }
 
 // A wall that accelerates enters with the velocity that it had a step ago.
@@ -53,13 +58,7 @@ TEST_P(Density, RateMatchesOracleWhereWallsAccelerate) {
   advance(dt);
   reference::World before = scene_.world;
   for (auto& wall : before.walls) wall.v = wall.v - dt * wall.acceleration;
-  for (std::size_t i = 0; i < motion_.size(); ++i) {
-    const auto& p = scene_.world.particles[i];
-    const reference::Sum rate = reference::density_rate(before, i);
-    EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + dt * rate.value.x,
-                rounding * dt * rate.size + 2 * epsilon * std::fabs(p.excess))
-        << "particle " << i;
-  }
+  expect_rates(before, dt);
 }
 
 // A wall particle at its own limit has no density to diffuse towards.
@@ -67,13 +66,7 @@ TEST_P(Density, RateMatchesOracleWhereWallsHaveLimits) {
   scene_.give_walls_limits();
   const double dt = 1e-3;
   advance(dt);
-  for (std::size_t i = 0; i < motion_.size(); ++i) {
-    const auto& p = scene_.world.particles[i];
-    const reference::Sum rate = reference::density_rate(scene_.world, i);
-    EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + dt * rate.value.x,
-                rounding * dt * rate.size + 2 * epsilon * std::fabs(p.excess))
-        << "particle " << i;
-  }
+  expect_rates(scene_.world, dt);
 }
 
 TEST_P(Density, ShearRateMatchesOracle) {
