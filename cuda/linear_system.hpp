@@ -98,6 +98,7 @@ struct RelaxationRow {
 struct RowCells {
   CellGrid grid;
   Span<const Index> cell_start;
+  std::uint64_t arrangement = 0;  // the same only while the cells hold the same rows; 0: never
 };
 
 struct SolveLimits {
@@ -106,7 +107,6 @@ struct SolveLimits {
   int max_iterations = 200;
   double relaxation = 1.2;    // of SOR
   double start_residual = 0;  // ||b - A u|| of the first guess
-  bool device_loop = false;   // whether the device repeats iterations until they end, of multigrid
 };
 
 struct SolveResult {

@@ -58,7 +58,7 @@ Simulation::State::State(const SimulationSetup& s)
       step_graph(context, "steps"),
       yielded(context, "yielded"),
       side_stream(context) {
-  if (setup.time_parts) step_graph.launch_singly(), viscous.launch_singly();
+  if (setup.time_parts) step_graph.launch_singly();
   departed.resize(s.fluids.size());
   dt = full_dt = stable_time_step(setup);
   upload_fluid();
@@ -131,6 +131,7 @@ void Simulation::State::rebuild() {
 }
 
 void Simulation::State::build_lists() {
+  ++arrangement;
   const auto fluid_reach = static_cast<Real>(reach.support + reach.fluid_skin);
   const auto wall_reach = static_cast<Real>(reach.support + reach.wall_skin);
   const auto sources = ordering.fluid_sources(fluid);

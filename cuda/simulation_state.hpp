@@ -51,6 +51,7 @@ struct Simulation::State {
   double density_ahead = 0;  // [s] by which the density is ahead of the particles, after a step made shorter
   double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0, capillary_work = 0;
   std::int64_t steps = 0, builds = 0;
+  std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
   double start_mass = 0;
   Index start_count = 0;  // particles at the start: more than any id
   DepartureCounts departed;
@@ -75,6 +76,7 @@ struct Simulation::State {
   ViscousStep::Step viscous_step();
   void reserve_step();
   void launch_step();
+  RowCells row_cells() const;
   SolveResult finish_solve(const StepRecord&);
   void launch_move();
   StepRecord solve_and_move();

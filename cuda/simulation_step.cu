@@ -32,10 +32,13 @@ ViscousStep::Step Simulation::State::viscous_step() {
   return {dt, kick(), lightest};
 }
 
-SolveResult Simulation::State::finish_solve(const StepRecord& now) {
+RowCells Simulation::State::row_cells() const {
   const auto sources = ordering.fluid_sources(fluid);
-  const SolveResult result =
-      viscous.finish(now, pairs(), {sources.grid, sources.cell_start}, solve_step, fluid);
+  return {sources.grid, sources.cell_start, arrangement};
+}
+
+SolveResult Simulation::State::finish_solve(const StepRecord& now) {
+  const SolveResult result = viscous.finish(now, pairs(), row_cells(), solve_step, fluid);
   report.iterations = result.iterations;
   report.residual = result.right_hand_side > 0 ? result.residual / result.right_hand_side : 0;
   report.velocity_error = result.residual / (solve_step.mass * std::sqrt(static_cast<double>(fluid.count)));
@@ -64,7 +67,7 @@ void Simulation::State::solve(const StepRecord& begun) {
     walls.place(time, dt, wall);
     viscous.forget(fluid);
     solve_step = viscous_step();
-    viscous.begin(pairs(), solve_step, fluid);
+    viscous.begin(pairs(), row_cells(), solve_step, fluid);
     result = finish_solve(viscous.read());
   }
   solver.steps += 1;
@@ -91,7 +94,7 @@ void Simulation::State::reserve_step() {
   reserve_reductions(context, larger(fluid.count, grid.cells()), most_terms);
   surface_tension.reserve(fluid.count);
   scratch.resize(fluid.count);
-  viscous.reserve(fluid.count, fluid_list.capacity());
+  viscous.reserve(fluid.count, fluid_list.capacity(), row_cells());
   list_age.reserve(grid);
 }
 
@@ -106,7 +109,7 @@ void Simulation::State::launch_step() {
     Section timer(context, "wall pressure");
     extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   }
-  viscous.begin(pairs(), solve_step, fluid);
+  viscous.begin(pairs(), row_cells(), solve_step, fluid);
   launch_move();
   viscous.post();
 }

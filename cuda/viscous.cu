@@ -117,11 +117,12 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       multigrid_(c),
       yield_(c) {}
 
-void ViscousStep::reserve(Index count, Offset pair_capacity) {
+void ViscousStep::reserve(Index count, Offset pair_capacity, const RowCells& rows) {
   constexpr Offset margin_percent = 1;
   predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
   wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
   work_.resize(count);
+  if (device_loop() && needs_levels_) multigrid_.prepare(rows, count);
 }
 
 LinearSystem ViscousStep::system(const PairContext& c) const {
@@ -132,12 +133,13 @@ LinearSystem ViscousStep::system(const PairContext& c) const {
 
 SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
                                  Offset pair_capacity, FluidArrays& fluid) {
-  reserve(fluid.count, pair_capacity);
-  begin(c, step, fluid);
+  reserve(fluid.count, pair_capacity, rows);
+  begin(c, rows, step, fluid);
   return finish(read(), c, rows, step, fluid);
 }
 
-void ViscousStep::begin(const PairContext& whole, const Step& step, FluidArrays& fluid) {
+void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const Step& step,
+                        FluidArrays& fluid) {
   const Index n = fluid.count;
   if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step));
   const PairContext c = as_solved(whole);
@@ -161,7 +163,7 @@ void ViscousStep::begin(const PairContext& whole, const Step& step, FluidArrays&
   } else if (exact_yield_stress()) {
     launch(context_, "not solved", 1, Declare{work_.state(), false});
   } else {
-    begin_solve(matrix, step, fluid.increment);
+    begin_solve(matrix, rows, step, fluid.increment);
   }
   launch(context_, "add increment", n, if_converged(work_.state(), end_solve(fluid)));
 }
@@ -170,6 +172,7 @@ SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole,
                                 const Step& step, FluidArrays& fluid) {
   const SolveState& s = now.solve;
   if (is_explicit()) return {0, 0, 0, true};
+  needs_levels_ = s.level_starts > 0;
   if (s.converged) return {s.iterations, s.residual, s.right_hand_side, true};
   Section timer(context_, "viscous solve");
   const PairContext c = as_solved(whole);
@@ -227,21 +230,25 @@ int ViscousStep::most_by_diagonal(int patience) const {
 }
 
 // The diagonal alone serves while a few iterations are enough: the coarse levels cost as much as some ten.
-void ViscousStep::begin_solve(const LinearSystem& matrix, const Step& step, Buffer<Quad>& increment) {
+void ViscousStep::begin_solve(const LinearSystem& matrix, const RowCells& rows, const Step& step,
+                              Buffer<Quad>& increment) {
   constexpr int patience = 4;
   const int most = most_by_diagonal(patience);
+  const double wanted = wanted_residual(step, matrix.size);
   launch_reduction<AddUp>(context_, "start", matrix.size,
                           StartFromPredicted{matrix, predicted_.span(), increment.span(),
                                              right_hand_side_.span(), work_.residual.span()},
-                          BeginSolve{work_.state(), wanted_residual(step, matrix.size), most});
+                          BeginSolve{work_.state(), wanted, most});
   if (most <= 0) return;
   const auto launch_batch = [&] {
     launch_conjugate_gradient(context_, matrix, smaller(patience, most), increment, work_);
   };
-  if (device_loop())
-    context_.repeat_while(&work_.state()->running, launch_batch);
-  else
-    launch_batch();
+  if (!device_loop()) return launch_batch();
+  context_.repeat_while(&work_.state()->running, launch_batch);
+  if (!multigrid_.prepared(rows)) return;
+  SolveLimits limits;
+  limits.energy = square(wanted) / step.mass, limits.max_iterations = numerics_.max_iterations;
+  multigrid_.launch_solve(matrix, rows, limits, {increment, work_});
 }
 
 // The rms velocity error that is allowed, as a residual.
@@ -256,8 +263,7 @@ void ViscousStep::forget(FluidArrays& fluid) {
 SolveResult ViscousStep::go_on(const LinearSystem& matrix, const RowCells& rows, const SolveState& now,
                                double energy, Buffer<Quad>& increment) {
   if (now.converged) return {now.iterations, now.residual, now.right_hand_side, true};
-  const SolveLimits limits{now.limit,    energy,       numerics_.max_iterations, numerics_.relaxation,
-                           now.residual, device_loop()};
+  const SolveLimits limits{now.limit, energy, numerics_.max_iterations, numerics_.relaxation, now.residual};
   SolveResult result{now.iterations, now.residual, now.right_hand_side, false};
   switch (numerics_.solver) {
     case ViscousSolver::jacobi:
@@ -270,12 +276,23 @@ SolveResult ViscousStep::go_on(const LinearSystem& matrix, const RowCells& rows,
       result = conjugate_gradient(context_, matrix, now, increment, work_);
       break;
     case ViscousSolver::multigrid:
-      result = conjugate_gradient(context_, matrix, now, increment, work_);
-      if (!result.converged) multigrid_.solve(matrix, rows, limits, {increment, work_, result});
+      result = by_multigrid(matrix, rows, limits, now, increment);
       break;
   }
   result.right_hand_side = now.right_hand_side;
   return result;
+}
+
+SolveResult ViscousStep::by_multigrid(const LinearSystem& matrix, const RowCells& rows,
+                                      const SolveLimits& limits, const SolveState& begun,
+                                      Buffer<Quad>& increment) {
+  const SolveResult result = conjugate_gradient(context_, matrix, begun, increment, work_);
+  if (result.converged) return result;
+  SolveState now = begun;
+  now.iterations = result.iterations, now.residual = result.residual;
+  now = multigrid_.solve(matrix, rows, limits, now, {increment, work_});
+  needs_levels_ = true;
+  return {now.iterations, now.residual, now.right_hand_side, now.converged != 0};
 }
 
 }  // namespace slagflow

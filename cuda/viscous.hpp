@@ -27,21 +27,19 @@ class ViscousStep {
   };
   SolveResult advance(const PairContext&, const RowCells&, const Step&, Offset pair_capacity, FluidArrays&);
 
-  // The same in parts. reserve() takes the memory (but that of an exact yield stress). begin()
+  // The same in parts. reserve() takes the memory (but that of an exact yield stress), and finds the
+  // aggregates of multigrid where the device is to go on with it by itself. begin()
   // waits for nothing; what comes behind it and is idle
   // unless the solve has converged may be launched at once. finish() is told what read() gave, and when that
   // had not converged, goes on until it has: then what was idle is to be launched again. post() is the first
   // part of a read(), which is read_posted() then.
-  void reserve(Index count, Offset pair_capacity);
-  void begin(const PairContext&, const Step&, FluidArrays&);
+  void reserve(Index count, Offset pair_capacity, const RowCells&);
+  void begin(const PairContext&, const RowCells&, const Step&, FluidArrays&);
   StepRecord read() { return work_.read(context_); }
   void post() { work_.post(context_); }
   StepRecord read_posted() { return work_.read_posted(context_); }
   SolveResult finish(const StepRecord& now, const PairContext&, const RowCells&, const Step&, FluidArrays&);
   StepRecord* record() { return work_.record.span().data; }
-
-  // Launches one by one from now on.
-  void launch_singly() { multigrid_.launch_singly(); }
 
   // Sets the first guess to nothing.
   void forget(FluidArrays&);
@@ -64,9 +62,11 @@ class ViscousStep {
   double wanted_residual(const Step&, Index count) const;
   double wanted_gap(const Step&, Real spacing) const;
   int most_by_diagonal(int patience) const;
-  void begin_solve(const LinearSystem&, const Step&, Buffer<Quad>& increment);
+  void begin_solve(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
   SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,
                     Buffer<Quad>& increment);
+  SolveResult by_multigrid(const LinearSystem&, const RowCells&, const SolveLimits&, const SolveState& now,
+                           Buffer<Quad>& increment);
   void add_increment(const Buffer<Quad>& increment);
   AddAndGuess end_solve(FluidArrays&);
   double relative_augmentation() const;
@@ -81,6 +81,7 @@ class ViscousStep {
   Buffer<Real> weight_;
   SolverWorkspace work_;
   Multigrid multigrid_;
+  bool needs_levels_ = false;  // whether the last solve went on with multigrid
   ExactYield yield_;
 };
 

@@ -279,46 +279,30 @@ void CoarseMatrix::resize() {
   inverse_.resize(static_cast<Offset>(aggregates()) * block_entries, margin_percent);
 }
 
-void CoarseMatrix::build(const LinearSystem& system, const RowCells& rows) {
+void CoarseMatrix::find(const RowCells& rows, Index row_count) {
   aggregates_.find(rows);
   resize();
-  owner_.resize(system.size);
+  owner_.resize(row_count);
   const AggregateView a = aggregates_.view();
   launch(context_, "owners", a.count, FindOwners{rows, a.cell, owner_.span()});
+}
+
+void CoarseMatrix::find(const CoarseView& finer) {
+  aggregates_.find(finer.aggregates);
+  resize();
+}
+
+void CoarseMatrix::assemble(const LinearSystem& system, const RowCells& rows) {
+  const AggregateView a = aggregates_.view();
   launch(context_, "assemble aggregates", a.count,
          AssembleRows{system, rows, a, owner_.span(), block_.span()});
   launch(context_, "invert blocks", a.count, InvertBlocks{block_.span(), inverse_.span()});
 }
 
-void CoarseMatrix::build(const CoarseView& finer) {
-  aggregates_.find(finer.aggregates);
-  resize();
+void CoarseMatrix::assemble(const CoarseView& finer) {
   const AggregateView a = aggregates_.view();
   launch(context_, "assemble aggregates", a.count, AssembleParts{finer, a, block_.span()});
   launch(context_, "invert blocks", a.count, InvertBlocks{block_.span(), inverse_.span()});
-}
-
-std::vector<double> CoarseMatrix::dense_inverse() const {
-  std::vector<double> block;
-  std::vector<Index> neighbour(static_cast<std::size_t>(aggregates()) * neighbour_slots);
-  block_.download(block);
-  context_.copy_to_host(neighbour.data(), aggregates_.view().neighbour.data,
-                        neighbour.size() * sizeof(Index));
-  const std::size_t n = static_cast<std::size_t>(aggregates()) * motions;
-  std::vector<double> dense(n * n);
-  for (std::size_t i = 0; i < n / motions; ++i)
-    for (std::size_t slot = own_slot; slot < neighbour_slots; ++slot) {
-      const Index other = neighbour[i * neighbour_slots + slot];
-      if (other < 0) continue;
-      const double* entry = block.data() + (i * kept_slots + slot - own_slot) * block_entries;
-      for (std::size_t k = 0; k < motions; ++k)
-        for (std::size_t l = 0; l < motions; ++l) {
-          const std::size_t row = i * motions + k, column = static_cast<std::size_t>(other) * motions + l;
-          dense[row * n + column] = dense[column * n + row] = entry[k * motions + l];
-        }
-    }
-  invert(dense.data(), static_cast<int>(n));
-  return dense;
 }
 
 }  // namespace slagflow

@@ -68,22 +68,21 @@ class CoarseMatrix {
  public:
   explicit CoarseMatrix(Context&);
 
-  // From the rows of the fine system, whose aggregates are the occupied cells.
-  void build(const LinearSystem&, const RowCells&);
-  // From the next finer level.
-  void build(const CoarseView& finer);
+  // Finds the aggregates: of rows, the occupied cells, or of those of the next finer level. Waits.
+  void find(const RowCells&, Index rows);
+  void find(const CoarseView& finer);
+  // The matrix, of the fine system or of the next finer level; may be recorded.
+  void assemble(const LinearSystem&, const RowCells&);
+  void assemble(const CoarseView& finer);
 
   Index aggregates() const { return aggregates_.view().count; }
   bool single() const { return aggregates_.view().grid.single(); }
   CoarseView view() const { return {aggregates_.view(), block_.span(), inverse_.span()}; }
   // The aggregate of each row of the fine system.
   Span<const Index> owner() const { return owner_.span(); }
-  // The whole matrix inverted, on the host.
-  std::vector<double> dense_inverse() const;
 
  private:
   void resize();
-  void invert_blocks();
 
   Context& context_;
   Aggregates aggregates_;

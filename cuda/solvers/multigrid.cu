@@ -89,8 +89,8 @@ struct ProlongToParts {
   }
 };
 
-// rest = force - A z, some rows of a block row each: one on a GPU, all on a CPU, which adds up several rows
-// in the time of one.
+// rest = force - A z, which may take the place of force, some rows of a block row each: one on a GPU, all on
+// a CPU, which adds up several rows in the time of one.
 struct CoarseResidual {
   static constexpr int rows = lane_count == 1 ? 1 : motions;
   CoarseView matrix;
@@ -177,12 +177,24 @@ struct JudgeResidual {
   }
 };
 
+// Where the diagonal alone was not enough.
+struct WantLevels {
+  SolveState* state;
+  int most_iterations;
+  HOST_DEVICE void operator()(Index) const {
+    SolveState& s = *state;
+    s.wants_levels = !s.converged && s.residual > s.limit && s.iterations < most_iterations ? 1 : 0;
+  }
+};
+
 struct StartAgain {
   SolveState* state;
   int most_iterations;
   HOST_DEVICE void operator()(Index) const {
     state->most_iterations = most_iterations;
+    state->wants_levels = 0;
     state->running = 1;
+    ++state->level_starts;
   }
 };
 
@@ -207,19 +219,34 @@ struct Ignore {
 // The true residual, when iterations have ended.
 struct ResidualAtEnd : Residual {
   const SolveState* state;
-  HOST_DEVICE bool idle() const { return state->running; }
+  HOST_DEVICE bool idle() const { return state->running || state->level_starts == 0; }
+};
+
+struct JudgeEnd {
+  SolveState* state;
+  HOST_DEVICE void operator()(const Terms<2>& sums) const {
+    SolveState& s = *state;
+    s.residual = std::sqrt(sums.value[0]);
+    if (s.converged) return;
+    const bool no_more = s.iterations >= s.most_iterations;
+    s.converged = s.residual <= (no_more ? 2 : 1) * s.limit ? 1 : 0;
+  }
 };
 
 }  // namespace
 
-Multigrid::Multigrid(Context& c)
-    : context_(c),
-      dense_(c, "coarsest inverse"),
-      preconditioned_(c, "preconditioned residual"),
-      iterations_(c, "multigrid iterations") {}
+Multigrid::Multigrid(Context& c) : context_(c), dense_(c), preconditioned_(c, "preconditioned residual") {}
 
-void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& rows, double bound,
-                                  Problem& problem) {
+void Multigrid::launch_start(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
+                             Problem problem) {
+  SolveState* state = problem.work.state();
+  launch(context_, "start again", 1, StartAgain{state, limits.max_iterations});
+  precondition(system, rows, problem.work.residual.span(), preconditioned_.span(),
+               JudgeEnergy{state, limits.energy * least_eigenvalue, true});
+}
+
+void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
+                                  Problem problem) {
   constexpr int at_a_time = 2;
   const Index n = system.size;
   SolverWorkspace& work = problem.work;
@@ -232,81 +259,82 @@ void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& ro
                             JudgeDirection{state});
     launch_reduction<AddUp>(context_, "advance", n, Advance{p, product, problem.u.span(), r, state},
                             JudgeResidual{state});
-    precondition(system, rows, r, z, JudgeEnergy{state, bound, false});
+    precondition(system, rows, r, z, JudgeEnergy{state, limits.energy * least_eigenvalue, false});
   }
 }
 
-SolveState Multigrid::iterate(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
-                              Problem& problem) {
-  const Index n = system.size;
-  SolverWorkspace& work = problem.work;
-  const auto r = work.residual.span();
-  SolveState* state = work.state();
-  const double bound = limits.energy * least_eigenvalue;
-  const auto start = [&] {
-    launch(context_, "start again", 1, StartAgain{state, limits.max_iterations});
-    precondition(system, rows, r, preconditioned_.span(), JudgeEnergy{state, bound, true});
-  };
-  const auto go_on = [&] { launch_iterations(system, rows, bound, problem); };
-  const auto find_residual = [&] {
-    launch_reduction<AddUp>(context_, "residual", n, ResidualAtEnd{{system, problem.u.span(), r}, state},
-                            KeepResidual{state});
-  };
-  if (limits.device_loop) {
-    constexpr int most_terms = 2;
-    reserve_reductions(context_, n, most_terms);
-    const auto most = static_cast<double>(limits.max_iterations), levels = static_cast<double>(used_);
-    iterations_.run({bound, most, levels}, [&] {
-      start();
-      context_.repeat_while(&state->running, go_on);
-      find_residual();
-      work.post(context_);
-    });
-    return work.read_posted(context_).solve;
-  }
-  start();
-  for (;;) {
-    go_on();
-    find_residual();
-    const SolveState now = work.read(context_).solve;
-    if (!now.running) return now;
-  }
+void Multigrid::launch_end(const LinearSystem& system, Problem problem) {
+  SolveState* state = problem.work.state();
+  launch_reduction<AddUp>(context_, "residual", system.size,
+                          ResidualAtEnd{{system, problem.u.span(), problem.work.residual.span()}, state},
+                          JudgeEnd{state});
 }
 
-void Multigrid::solve(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
-                      Problem problem) {
-  constexpr int restarts = 3;
-  preconditioned_.resize(system.size);
+void Multigrid::launch_solve(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
+                             Problem problem) {
+  SolveState* state = problem.work.state();
+  state_ = state;
+  launch(context_, "levels wanted", 1, WantLevels{state, limits.max_iterations});
+  context_.repeat_while(&state->wants_levels, [&] {
+    build(system, rows);
+    launch_start(system, rows, limits, problem);
+  });
+  context_.repeat_while(&state->running, [&] { launch_iterations(system, rows, limits, problem); });
+  launch_end(system, problem);
+  state_ = nullptr;
+}
+
+SolveState Multigrid::solve(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
+                            SolveState now, Problem problem) {
+  constexpr int most_starts = 3;
+  prepare(rows, system.size);
   build(system, rows);
   state_ = problem.work.state();
-  SolveResult& result = problem.result;
-  for (int start = 0; start < restarts && result.residual > limits.residual; ++start) {
-    if (result.iterations >= limits.max_iterations) break;
-    const SolveState now = iterate(system, rows, limits, problem);
-    result.iterations = now.iterations, result.residual = now.residual;
-    result.converged = now.converged != 0;
-    if (result.converged) break;
+  while (!now.converged && now.residual > now.limit && now.iterations < limits.max_iterations &&
+         now.level_starts < most_starts) {
+    launch_start(system, rows, limits, problem);
+    do {
+      launch_iterations(system, rows, limits, problem);
+      launch_end(system, problem);
+      now = problem.work.read(context_).solve;
+    } while (now.running);
   }
   state_ = nullptr;
-  if (!result.converged) result.converged = result.residual <= 2 * limits.residual;
+  if (now.residual <= 2 * now.limit) now.converged = 1;
+  return now;
 }
 
-void Multigrid::build(const LinearSystem& system, const RowCells& rows) {
-  Section timer(context_, "multigrid build");
+bool Multigrid::prepared(const RowCells& rows) const {
+  return rows.arrangement != 0 && rows.arrangement == arrangement_;
+}
+
+void Multigrid::prepare(const RowCells& rows, Index row_count) {
+  if (prepared(rows)) return;
+  Section timer(context_, "multigrid levels");
+  preconditioned_.resize(row_count);
   used_ = 0;
   do {
     if (levels_.size() == used_) levels_.push_back(std::make_unique<Level>(context_));
     Level& level = *levels_[used_];
     if (used_ == 0)
-      level.matrix.build(system, rows);
+      level.matrix.find(rows, row_count);
     else
-      level.matrix.build(levels_[used_ - 1]->matrix.view());
+      level.matrix.find(levels_[used_ - 1]->matrix.view());
     const Offset size = static_cast<Offset>(level.matrix.aggregates()) * motions;
     level.force.resize(size), level.motion.resize(size), level.rest.resize(size);
     ++used_;
   } while (levels_[used_ - 1]->matrix.aggregates() > direct_aggregates &&
            !levels_[used_ - 1]->matrix.single());
-  dense_.upload(levels_[used_ - 1]->matrix.dense_inverse());
+  dense_.resize(levels_[used_ - 1]->matrix.aggregates());
+  arrangement_ = rows.arrangement;
+  context_.arrange_anew();  // other numbers of launches
+}
+
+void Multigrid::build(const LinearSystem& system, const RowCells& rows) {
+  Section timer(context_, "multigrid build");
+  levels_.front()->matrix.assemble(system, rows);
+  for (std::size_t k = 1; k < used_; ++k) levels_[k]->matrix.assemble(levels_[k - 1]->matrix.view());
+  dense_.launch_inversion(levels_[used_ - 1]->matrix.view());
 }
 
 template <class Body>
@@ -314,17 +342,16 @@ void Multigrid::launch_level(const char* label, Index n, const Body& body) {
   launch(context_, label, n, while_running(state_, body));
 }
 
-void Multigrid::residual(Level& level) {
-  launch_level(
-      "coarse residual", static_cast<Index>(level.force.size()) / CoarseResidual::rows,
-      CoarseResidual{level.matrix.view(), level.force.span(), level.motion.span(), level.rest.span()});
+void Multigrid::residual(Level& level, Span<double> rest) {
+  launch_level("coarse residual", static_cast<Index>(level.force.size()) / CoarseResidual::rows,
+               CoarseResidual{level.matrix.view(), level.force.span(), level.motion.span(), rest});
 }
 
 // A W cycle for A z = force, from z = 0.
 void Multigrid::cycle(std::size_t number) {
   Level& level = *levels_[number];
   const auto rows = static_cast<Index>(level.force.size());
-  if (number + 1 == used_) {
+  if (coarsest(number)) {
     launch_level("coarsest solve", rows,
                  DenseMultiply{dense_.span(), level.force.span(), level.motion.span()});
     return;
@@ -332,17 +359,22 @@ void Multigrid::cycle(std::size_t number) {
   Level& coarser = *levels_[number + 1];
   const AggregateView fine = level.matrix.view().aggregates, coarse = coarser.matrix.view().aggregates;
   const Span<const double> inverse = level.matrix.view().inverse;
-  launch_level("smooth", rows, SmoothBlocks{inverse, level.force.span(), From::zero, level.motion.span()});
-  constexpr int visits = 2;
-  for (int visit = 0; visit < visits; ++visit) {
-    residual(level);
-    launch_level("restrict", coarse.count,
-                 RestrictParts{fine, coarse, level.rest.span(), coarser.force.span()});
+  const auto visit_coarser = [&] {
     cycle(number + 1);
     launch_level("prolong", fine.count,
                  ProlongToParts{fine, coarse, coarser.motion.span(), level.motion.span()});
+  };
+  launch_level("smooth", rows, SmoothBlocks{inverse, level.force.span(), From::zero, level.motion.span()});
+  residual(level, level.rest.span());
+  launch_level("restrict", coarse.count,
+               RestrictParts{fine, coarse, level.rest.span(), coarser.force.span()});
+  visit_coarser();
+  if (!coarsest(number + 1)) {
+    // What is left of the forces there: T^T (r - A T e) = T^T r - (T^T A T) e.
+    residual(coarser, coarser.force.span());
+    visit_coarser();
   }
-  residual(level);
+  residual(level, level.rest.span());
   launch_level("smooth", rows, SmoothBlocks{inverse, level.rest.span(), From::motion, level.motion.span()});
 }
 

@@ -9,8 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "backend/launch_graph.hpp"
-#include "solvers/coarse_matrix.hpp"
+#include "solvers/dense_inverse.hpp"
 #include "solvers/solver.hpp"
 
 namespace slagflow {
@@ -21,15 +20,18 @@ class Multigrid {
 
   struct Problem {
     Buffer<Quad>& u;
-    SolverWorkspace& work;  // with the residual of u
-    SolveResult& result;    // with its norm and the iterations so far
+    SolverWorkspace& work;  // with the residual of u, and the state of a solve that ended without success
   };
-  // Goes on from u until the residual is small enough, and leaves the true residual in the result.
-  void solve(const LinearSystem&, const RowCells&, const SolveLimits&, Problem);
+  // Goes on from `now`, that state, until the residual is small enough. Returns the state at the end, with
+  // the true residual.
+  SolveState solve(const LinearSystem&, const RowCells&, const SolveLimits&, SolveState now, Problem);
+  // The same on the device alone, where the state says that it is needed then, up to its first end; may be
+  // recorded. prepared() for these rows only.
+  void launch_solve(const LinearSystem&, const RowCells&, const SolveLimits&, Problem);
 
-  // Launches one by one from now on.
-  void launch_singly() { iterations_.launch_singly(); }
-
+  // Finds the aggregates of all levels and takes their memory, which waits; nothing where prepared() already.
+  void prepare(const RowCells&, Index row_count);
+  bool prepared(const RowCells&) const;
   // Sets up the coarse levels.
   void build(const LinearSystem&, const RowCells&);
   // z = M^-1 r, M the preconditioner.
@@ -43,24 +45,26 @@ class Multigrid {
     Buffer<double> force, motion, rest;
   };
 
-  // Iterates anew from the residual at hand; the state tells how it ended, and the true residual.
-  SolveState iterate(const LinearSystem&, const RowCells&, const SolveLimits&, Problem&);
-  // A few of them, which the state may end.
-  void launch_iterations(const LinearSystem&, const RowCells&, double bound, Problem&);
+  void launch_start(const LinearSystem&, const RowCells&, const SolveLimits&, Problem);
+  // A few, which the state may end.
+  void launch_iterations(const LinearSystem&, const RowCells&, const SolveLimits&, Problem);
+  // The true residual, once they have ended.
+  void launch_end(const LinearSystem&, Problem);
   template <class Finish>
   void precondition(const LinearSystem&, const RowCells&, Span<const Quad> r, Span<Quad> z, Finish);
   // While iterations go on.
   template <class Body>
   void launch_level(const char* label, Index n, const Body&);
   void cycle(std::size_t number);
-  void residual(Level&);
+  void residual(Level&, Span<double> rest);
+  bool coarsest(std::size_t number) const { return number + 1 == used_; }
 
   Context& context_;
   std::vector<std::unique_ptr<Level>> levels_;  // all that were ever needed
   std::size_t used_ = 0;
-  Buffer<double> dense_;  // inverse of the coarsest matrix
+  std::uint64_t arrangement_ = 0;  // of the rows whose aggregates they are
+  DenseInverse dense_;             // of the coarsest
   Buffer<Quad> preconditioned_;
-  LaunchGraph iterations_;
   const SolveState* state_ = nullptr;  // of the solve under way
 };
 

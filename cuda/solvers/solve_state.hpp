@@ -20,12 +20,15 @@ struct SolveState {
   std::int32_t iterations = 0, most_iterations = 0;
   std::int32_t starts = 0, started_at = 0;  // how often, and at which iteration the last time
   std::int32_t running = 0;                 // whether iterations go on
+  std::int32_t wants_levels = 0;            // whether coarse levels are to be set up
+  std::int32_t level_starts = 0;            // how often iterations with them began
   std::int32_t converged = 0;               // whether the solution is good enough to go on with
 
   // ||r|| of the first guess.
   HOST_DEVICE void begin(double norm, int most) {
     residual = norm;
     iterations = starts = started_at = 0;
+    wants_levels = level_starts = 0;
     most_iterations = most;
     alpha = beta = 0;
     converged = residual <= limit ? 1 : 0;

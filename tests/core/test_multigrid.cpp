@@ -1,6 +1,8 @@
 // The coarse levels against dense products, and what conjugate gradients ask of a preconditioner.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "backend/device.hpp"
 #include "solvers/multigrid.hpp"
 #include "viscous_scene.hpp"
@@ -47,6 +49,10 @@ class Coarsened : public testing::TestWithParam<SceneOptions> {
       result.push_back(to_double(host.apply(static_cast<std::size_t>(ids[row]), by_id)));
     return result;
   }
+  void find_and_assemble(CoarseMatrix& matrix, const RowCells& rows) {
+    matrix.find(rows, scene_.fluid.count);
+    matrix.assemble(device_->system(scene_), rows);
+  }
   std::vector<Quad> precondition(Multigrid& multigrid, const std::vector<Quad>& r) {
     Buffer<Quad> from(scene_.context, "r"), to(scene_.context, "z", static_cast<Offset>(size()));
     from.upload(r);
@@ -85,17 +91,22 @@ class HostCoarse {
   std::size_t number(Index cell) const {
     return static_cast<std::size_t>(number_[static_cast<std::size_t>(cell)]);
   }
-  double energy(const std::vector<double>& x) const {
-    double sum = 0;
+  std::vector<double> apply(const std::vector<double>& x) const {
+    std::vector<double> product(x.size());
     for (std::size_t row = 0; row < x.size(); ++row)
       for (int slot = 0; slot < neighbour_slots; ++slot) {
         const Index other = neighbour_[row / motions * neighbour_slots + static_cast<std::size_t>(slot)];
         if (other < 0) continue;
         for (int l = 0; l < motions; ++l)
-          sum += x[row] * x[static_cast<std::size_t>(other) * motions + static_cast<std::size_t>(l)] *
-                 view_.entry(static_cast<Index>(row / motions), slot, static_cast<int>(row % motions), l);
+          product[row] +=
+              x[static_cast<std::size_t>(other) * motions + static_cast<std::size_t>(l)] *
+              view_.entry(static_cast<Index>(row / motions), slot, static_cast<int>(row % motions), l);
       }
-    return sum;
+    return product;
+  }
+  double energy(const std::vector<double>& x) const {
+    const std::vector<double> product = apply(x);
+    return std::inner_product(x.begin(), x.end(), product.begin(), 0.0);
   }
 
  private:
@@ -114,7 +125,7 @@ std::vector<double> random_motions(std::size_t size, Random& random) {
 TEST_P(Coarsened, FirstLevelHoldsTheEnergyOfRigidMotions) {
   CoarseMatrix matrix(scene_.context);
   const RowCells rows = scene_.rows();
-  matrix.build(device_->system(scene_), rows);
+  find_and_assemble(matrix, rows);
   const HostCoarse coarse(scene_.context, matrix.view());
   const auto place = download(scene_.context, scene_.fluid.place.span());
   const auto diagonal = download(scene_.context, device_->diagonal.span());
@@ -147,8 +158,9 @@ TEST_P(Coarsened, FirstLevelHoldsTheEnergyOfRigidMotions) {
 
 TEST_P(Coarsened, NextLevelHoldsTheEnergyOfItsPartsAsTheyMove) {
   CoarseMatrix finer(scene_.context), matrix(scene_.context);
-  finer.build(device_->system(scene_), scene_.rows());
-  matrix.build(finer.view());
+  find_and_assemble(finer, scene_.rows());
+  matrix.find(finer.view());
+  matrix.assemble(finer.view());
   const HostCoarse fine(scene_.context, finer.view()), coarse(scene_.context, matrix.view());
   EXPECT_LT(coarse.size(), fine.size());
   Random random(8);
@@ -166,8 +178,52 @@ TEST_P(Coarsened, NextLevelHoldsTheEnergyOfItsPartsAsTheyMove) {
   EXPECT_NEAR(coarse.energy(x), energy, 1e-11 * energy);
 }
 
+// Of the whole matrix, whatever its size.
+TEST_P(Coarsened, DenseInverseTimesTheMatrixIsOne) {
+  CoarseMatrix finer(scene_.context), matrix(scene_.context);
+  find_and_assemble(finer, scene_.rows());
+  matrix.find(finer.view());
+  matrix.assemble(finer.view());
+  DenseInverse dense(scene_.context);
+  dense.resize(matrix.aggregates());
+  dense.launch_inversion(matrix.view());
+  const HostCoarse coarse(scene_.context, matrix.view());
+  const std::vector<double> inverse = download(scene_.context, dense.span());
+  const std::size_t n = coarse.size();
+  ASSERT_EQ(inverse.size(), n * n);
+  double largest = 0;
+  for (std::size_t column = 0; column < n; ++column) {
+    std::vector<double> unit(n);
+    unit[column] = 1;
+    const std::vector<double> entries = coarse.apply(unit);  // a column of the symmetric matrix
+    for (std::size_t row = 0; row < n; ++row) {
+      double sum = row == column ? -1 : 0;
+      for (std::size_t l = 0; l < n; ++l) sum += inverse[row * n + l] * entries[l];
+      largest = std::max(largest, std::fabs(sum));
+    }
+  }
+  EXPECT_LT(largest, 1e-8);
+}
+
+TEST_P(Coarsened, LevelsArePreparedForOneArrangementOfTheRows) {
+  Multigrid multigrid(scene_.context);
+  RowCells rows = scene_.rows();
+  multigrid.prepare(rows, scene_.fluid.count);
+  EXPECT_FALSE(multigrid.prepared(rows));  // nothing tells when these rows change
+  rows.arrangement = 5;
+  multigrid.prepare(rows, scene_.fluid.count);
+  EXPECT_TRUE(multigrid.prepared(rows));
+  const std::int64_t waits = scene_.context.counts().waits;
+  multigrid.prepare(rows, scene_.fluid.count);
+  multigrid.build(device_->system(scene_), rows);
+  EXPECT_EQ(scene_.context.counts().waits, waits);
+  rows.arrangement = 6;
+  EXPECT_FALSE(multigrid.prepared(rows));
+}
+
 TEST_P(Coarsened, PreconditionerIsSymmetricAndPositive) {
   Multigrid multigrid(scene_.context);
+  multigrid.prepare(scene_.rows(), scene_.fluid.count);
   multigrid.build(device_->system(scene_), scene_.rows());
   Random random(5);
   for (int trial = 0; trial < 5; ++trial) {

@@ -101,9 +101,8 @@ TEST_F(SolverLoop, EndsWithTheSameReason) {
 }
 
 // However many iterations it takes.
-TEST_F(SolverLoop, ASolveByConjugateGradientsIsPartOfTheOneGraphOfAStep) {
-  if (!records_loops()) GTEST_SKIP() << "on a GPU, with SLAGFLOW_GRAPH_LOOPS=1";
-  SimulationSetup stiff = with_solver(dam(), ViscousSolver::conjugate_gradient, 1e-4);
+void expect_one_graph_a_step(ViscousSolver solver) {
+  SimulationSetup stiff = with_solver(dam(), solver, 1e-4);
   stiff.fluids[1].rheology.parameters[0] = 30;
   Simulation simulation(looping(stiff));
   simulation.step();
@@ -120,6 +119,16 @@ TEST_F(SolverLoop, ASolveByConjugateGradientsIsPartOfTheOneGraphOfAStep) {
     EXPECT_EQ(after.graph_launches - before.graph_launches, on_gpu() ? 1 : 0);
   }
   EXPECT_GT(beyond_a_batch, 3);
+}
+
+TEST_F(SolverLoop, ASolveByConjugateGradientsIsPartOfTheOneGraphOfAStep) {
+  if (!records_loops()) GTEST_SKIP() << "on a GPU, with SLAGFLOW_GRAPH_LOOPS=1";
+  expect_one_graph_a_step(ViscousSolver::conjugate_gradient);
+}
+
+TEST_F(SolverLoop, ASolveByMultigridIsPartOfTheOneGraphOfAStep) {
+  if (!records_loops()) GTEST_SKIP() << "on a GPU, with SLAGFLOW_GRAPH_LOOPS=1";
+  expect_one_graph_a_step(ViscousSolver::multigrid);
 }
 
 TEST_F(SolverLoop, IsRefusedWhereItIsNotTheDeviceThatDecides) {

@@ -103,6 +103,26 @@ TEST(StepWaits, TwiceMoreWhenTheWatchLooks) {
   EXPECT_EQ(quiet_steps(simulation, 8).most_waits, 3);  // for its maxima and for its sums
 }
 
+// For its first four iterations, for each two with multigrid, and for what it moved.
+TEST(StepWaits, AStiffStepWaitsForItsIterationsOnly) {
+  SimulationSetup s = dam();
+  s.fluids[1].rheology.parameters[0] = 30;
+  s.numerics.tolerance = 1e-4;
+  s.limits.interval = 1000000;
+  Simulation simulation(s);
+  simulation.step();
+  int stiff = 0;
+  for (int k = 0; k < 12; ++k) {
+    const std::int64_t builds = simulation.list_builds();
+    const DeviceCounts c = counts_of_step(simulation);
+    const int by_levels = simulation.last_solve().iterations - 4;
+    if (simulation.list_builds() > builds || by_levels <= 0) continue;
+    EXPECT_EQ(c.waits, 2 + (by_levels + 1) / 2) << by_levels;
+    ++stiff;
+  }
+  EXPECT_GT(stiff, 3);
+}
+
 // Moving walls are placed, and their lists judged, from the host; the step itself is one graph all the same.
 TEST(StepWaits, MovingWallsLeaveTheStepOneGraph) {
   const Quiet quiet = quiet_steps(moving_dam(), 10);
