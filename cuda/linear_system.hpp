@@ -23,10 +23,24 @@ struct LinearSystem {
   PeriodicBox box;
   PairCoupling coupling = PairCoupling::radial;
 
+  // Calls use(space) with the box, or with an open one: what `use` calls is compiled, and inlined, for each.
+  template <class Use>
+  HOST_DEVICE void in_box(Use use) const {
+    box.any() ? use(box) : use(OpenBox{});
+  }
+
   // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
-  template <class Visit>
-  HOST_DEVICE void for_links(Index i, Visit visit) const {
-    box.any() ? for_links_in(box, i, visit) : for_links_in(OpenBox{}, i, visit);
+  template <class Box, class Visit>
+  HOST_DEVICE void for_links(const Box& space, Index i, Visit visit) const {
+    const LaneVec3 centre = in_lanes(xyz(place[i]));
+    const Offset first = links.row(i);
+    const Index n = links.length[i];
+    for (Index k = 0; k < n; k += lane_count) {
+      const Offset at = first + k * ListView::stride();
+      const Lanes w = load_lanes(&weight[at]);
+      const Index* j = &links.entry[at];
+      visit(j, w, space.separation(centre, xyz(gather(place, j))));
+    }
   }
 
   // (A u)_i
@@ -34,8 +48,10 @@ struct LinearSystem {
     const Vec3 here = xyz(u[i]);
     const LaneVec3 centre = in_lanes(here);
     LaneVec3 sum;
-    for_links(i, [&](const Index* j, Lanes w, LaneVec3 d) {
-      sum += couple(coupling, w, d, centre - xyz(gather(u, j)));
+    in_box([&](const auto& space) {
+      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum += couple(coupling, w, d, centre - xyz(gather(u, j)));
+      });
     });
     return on_diagonal(i, here) + total(sum);
   }
@@ -47,28 +63,17 @@ struct LinearSystem {
   HOST_DEVICE Two apply(Index i, Span<const Quad> u, Span<const Quad> v) const {
     const LaneVec3 here_u = in_lanes(xyz(u[i])), here_v = in_lanes(xyz(v[i]));
     LaneVec3 sum_u, sum_v;
-    for_links(i, [&](const Index* j, Lanes w, LaneVec3 d) {
-      sum_u += couple(coupling, w, d, here_u - xyz(gather(u, j)));
-      sum_v += couple(coupling, w, d, here_v - xyz(gather(v, j)));
+    in_box([&](const auto& space) {
+      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum_u += couple(coupling, w, d, here_u - xyz(gather(u, j)));
+        sum_v += couple(coupling, w, d, here_v - xyz(gather(v, j)));
+      });
     });
     return {on_diagonal(i, xyz(u[i])) + total(sum_u), on_diagonal(i, xyz(v[i])) + total(sum_v)};
   }
 
  private:
   HOST_DEVICE Vec3 on_diagonal(Index i, Vec3 here) const { return diagonal[i].w * here + wall[i] * here; }
-
-  template <class Box, class Visit>
-  HOST_DEVICE void for_links_in(const Box& space, Index i, Visit visit) const {
-    const LaneVec3 centre = in_lanes(xyz(place[i]));
-    const Offset first = links.row(i);
-    const Index n = links.length[i];
-    for (Index k = 0; k < n; k += lane_count) {
-      const Offset at = first + k * ListView::stride();
-      const Lanes w = load_lanes(&weight[at]);
-      const Index* j = &links.entry[at];
-      visit(j, w, space.separation(centre, xyz(gather(place, j))));
-    }
-  }
 };
 
 // What a stationary solver needs of row i: b - A u and the 3x3 diagonal block of A. The point diagonal would
@@ -83,9 +88,11 @@ struct RelaxationRow {
     const Real mass = system.diagonal[i].w;
     LaneVec3 sum;
     SymmetricMatrix3<Lanes> links;
-    system.for_links(i, [&](const Index* j, Lanes w, LaneVec3 d) {
-      sum += couple(system.coupling, w, d, centre - xyz(gather(u, j)));
-      add_coupling(system.coupling, w, d, links);
+    system.in_box([&](const auto& space) {
+      system.for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum += couple(system.coupling, w, d, centre - xyz(gather(u, j)));
+        add_coupling(system.coupling, w, d, links);
+      });
     });
     residual = xyz(system.right_hand_side[i]) - mass * here - block * here - total(sum);
     block += total(links);

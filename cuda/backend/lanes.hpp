@@ -1,10 +1,11 @@
 // Several pairs at once: `Lanes` holds one number for each of lane_count pairs in a vector register of a CPU.
 // A GPU has a thread for each particle and takes the pairs one by one: one lane, and Lanes is Real. Bodies
-// are written for either. The vector types are those of GCC and Clang, on any instruction set; AVX and
-// AVX-512 get shorter ways of gathering and appending.
+// are written for either. The vector types are those of GCC and Clang, on any instruction set; AVX
+// gets a shorter way of gathering, AVX2 and AVX-512 get shorter ways of appending.
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <type_traits>
 
 #include "backend/platform.hpp"
@@ -190,17 +191,44 @@ inline void gather(const Block* from, const Index* at, Lanes (&parts)[4]) {
   }
 }
 
+#if defined(__AVX2__)
+#if !defined(__AVX512VL__)
+// For each set of lanes their numbers, from the lowest on, a byte each.
+struct LaneOrder {
+  std::uint64_t of[256] = {};
+  constexpr LaneOrder() {
+    for (unsigned lanes = 0; lanes < 256; ++lanes) {
+      int place = 0;
+      for (unsigned lane = 0; lane < 8; ++lane)
+        if (lanes >> lane & 1) of[lanes] |= static_cast<std::uint64_t>(lane) << 8 * place++;
+    }
+  }
+};
+inline constexpr LaneOrder lane_order;
+#endif
+
+// The values of the lanes that are set, next to each other.
+inline __m256i packed(__m256i values, unsigned lanes) {
+#if defined(__AVX512VL__)
+  return _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), values);
+#else
+  const __m128i order = _mm_cvtsi64_si128(static_cast<long long>(lane_order.of[lanes]));
+  return _mm256_permutevar8x32_epi32(values, _mm256_cvtepu8_epi32(order));
+#endif
+}
+inline void store(void* to, __m256i values) { _mm256_storeu_si256(static_cast<__m256i*>(to), values); }
+#endif
+
 // Writes value + k for each lane k that is set; returns the place after the last. Nothing is written from
 // `end` on.
 template <int stride>
 inline Index* append(Index* to, const Index* end, Index value, unsigned lanes) {
   static_assert(stride == 1);
-#if defined(__AVX512VL__)
+#if defined(__AVX2__)
   if (to + 8 <= end) {
     const __m256i numbers =
         _mm256_add_epi32(_mm256_set1_epi32(value), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                        _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), numbers));
+    store(to, packed(numbers, lanes));
     return to + number_of(lanes);
   }
 #endif
@@ -210,11 +238,9 @@ inline Index* append(Index* to, const Index* end, Index value, unsigned lanes) {
 
 // The same for values[k], with room for lane_count numbers at `to`.
 inline Index* append(Index* to, const Index* values, unsigned lanes) {
-#if defined(__AVX512VL__)
+#if defined(__AVX2__)
   if constexpr (lane_count == 8) {
-    const __m256i numbers = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                        _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), numbers));
+    store(to, packed(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)), lanes));
     return to + number_of(lanes);
   }
 #endif
@@ -222,10 +248,9 @@ inline Index* append(Index* to, const Index* values, unsigned lanes) {
   return to;
 }
 inline void append(Real* to, Lanes values, unsigned lanes) {
-#if defined(__AVX512VL__)
+#if defined(__AVX2__)
   if constexpr (sizeof(Real) == 4) {
-    _mm256_storeu_ps(reinterpret_cast<float*>(to),
-                     _mm256_maskz_compress_ps(static_cast<__mmask8>(lanes), (__m256)values.v));
+    store(to, packed((__m256i)values.v, lanes));
     return;
   }
 #endif
