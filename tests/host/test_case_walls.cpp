@@ -68,10 +68,9 @@ TEST(CaseWalls, BearAsMuchTensionAsTheFluidOrLess) {
   EXPECT_EQ(limit("tension_limit = 'auto'\n"), -1);
   EXPECT_EQ(limit("tension_limit = 5\n"), 5);
   EXPECT_EQ(limit("tension_limit = 20\n"), 20);
-  EXPECT_THAT(
-      message_of("tension_limit = 21\n" + fluid),
-      testing::HasSubstr("key 'wall.0.tension_limit': value 21.0: allowed: up to what the fluid bears, "
-                         "numerics.tension_limit = 20.0 [Pa]"));
+  EXPECT_THAT(message_of("tension_limit = 21\n" + fluid),
+              testing::HasSubstr("key 'wall.0.tension_limit': value 21: allowed: up to what the fluid bears, "
+                                 "numerics.tension_limit = 20 [Pa]"));
   EXPECT_THAT(message_of("tension_limit = -1"),
               testing::HasSubstr("value -1 is out of range: allowed: a number >= 0.0 [Pa, or \"auto\"]"));
   EXPECT_THAT(message_of("tension_limit = 'none'"), testing::HasSubstr("[Pa, or \"auto\"]"));
