@@ -1,3 +1,4 @@
+#include <charconv>
 #include <limits>
 
 #include "backend/error.hpp"
@@ -13,13 +14,35 @@ void require(bool holds, const std::string& message) {
   if (!holds) throw InputError(message);
 }
 
+// As short as it reads back to the same number.
+std::string text_of(double number) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+// The exact yield stress is the minimum of an energy: one of an implicit Euler step with the radial operator.
+void exact_yield_conflicts(const NumericsSetup& n, std::vector<Conflict>& found) {
+  const std::string with = " with numerics.yield = \"exact\": allowed: ";
+  if (n.theta != 1) found.push_back({"numerics.theta", "value " + text_of(n.theta) + with + "1"});
+  if (n.viscous_operator != ViscousOperator::radial)
+    found.push_back({"numerics.operator", "value \"laplacian\"" + with + "\"radial\""});
+  if (n.viscous_step != ViscousStepping::implicit_step)
+    found.push_back({"numerics.viscous_step", "value \"explicit\"" + with + "\"implicit\""});
+}
+
+// The device repeats iterations that decide by themselves whether they go on.
+void device_loop_conflicts(const NumericsSetup& n, std::vector<Conflict>& found) {
+  const auto refuse = [&](const std::string& with) {
+    found.push_back({"numerics.solver_loop", "value \"conditional\" with " + with + ": allowed: \"batch\""});
+  };
+  if (n.solver == ViscousSolver::sor) refuse("numerics.solver = \"sor\"");
+  if (n.solver == ViscousSolver::jacobi) refuse("numerics.solver = \"jacobi\"");
+  if (n.viscous_step == ViscousStepping::explicit_step) refuse("numerics.viscous_step = \"explicit\"");
+  if (n.yield == YieldModel::exact) refuse("numerics.yield = \"exact\"");
+}
+
 void validate_exact_yield(const SimulationSetup& s) {
   const NumericsSetup& n = s.numerics;
-  require(n.theta == 1, "yield \"exact\" with theta " + std::to_string(n.theta) + "; allowed: 1");
-  require(n.viscous_operator == ViscousOperator::radial,
-          "yield \"exact\" with operator \"laplacian\"; allowed: \"radial\"");
-  require(n.viscous_step == ViscousStepping::implicit_step,
-          "yield \"exact\" with viscous_step \"explicit\"; allowed: \"implicit\"");
   require(n.yield_augmentation >= 0 && n.yield_iterations > 0,
           "yield_augmentation: allowed: 0 or larger; yield_iterations: larger than 0");
   for (const FluidSetup& f : s.fluids)
@@ -29,20 +52,26 @@ void validate_exact_yield(const SimulationSetup& s) {
                                                      "herschel-bulkley, carreau-yasuda");
 }
 
-void validate_device_loop(const NumericsSetup& n) {
-  const std::string with = "numerics.solver_loop: value \"conditional\" ", allowed = "; allowed: \"batch\"";
-  require(n.solver == ViscousSolver::multigrid || n.solver == ViscousSolver::conjugate_gradient,
-          with + "with a solver other than multigrid, conjugate_gradient" + allowed);
-  require(n.viscous_step == ViscousStepping::implicit_step && n.yield == YieldModel::regularised,
-          with + "with an explicit step or an exact yield stress" + allowed);
-}
-
 double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.dimensions); }
 
 }  // namespace
 
 bool allows_exact_yield(RheologyKind kind) {
   return kind != RheologyKind::casson && kind != RheologyKind::biviscous;
+}
+
+std::vector<Conflict> conflicts(const NumericsSetup& n) {
+  std::vector<Conflict> found;
+  if (n.yield == YieldModel::exact) exact_yield_conflicts(n, found);
+  if (n.solver_loop == SolverLoop::conditional) device_loop_conflicts(n, found);
+  return found;
+}
+
+std::string tension_conflict(double wall_limit, const NumericsSetup& n) {
+  if (!(wall_limit > n.tension_limit)) return "";
+  return "value " + text_of(wall_limit) +
+         ": allowed: up to what the fluid bears, numerics.tension_limit = " + text_of(n.tension_limit) +
+         " [Pa]";
 }
 
 void validate(const SimulationSetup& s) {
@@ -54,8 +83,12 @@ void validate(const SimulationSetup& s) {
   require(s.numerics.theta > 0 && s.numerics.theta <= 1,
           "theta is " + std::to_string(s.numerics.theta) + "; allowed: 0.5 to 1");
   require(!s.fluids.empty(), "there is no fluid");
+  for (const Conflict& c : conflicts(s.numerics)) throw InputError(c.key + ": " + c.what);
   if (s.numerics.yield == YieldModel::exact) validate_exact_yield(s);
-  if (s.numerics.solver_loop == SolverLoop::conditional) validate_device_loop(s.numerics);
+  for (const WallBody& body : s.bodies) {
+    const std::string conflict = tension_conflict(body.tension_limit, s.numerics);
+    require(conflict.empty(), "tension_limit of wall \"" + body.name + "\": " + conflict);
+  }
   const auto& p = s.particles;
   const std::size_t n = p.position.size();
   require(n < static_cast<std::size_t>(std::numeric_limits<Index>::max()),

@@ -1,6 +1,7 @@
 // From a setup to the constants that the device bodies use.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "params.hpp"
@@ -10,6 +11,16 @@ namespace slagflow {
 
 // Throws InputError on values that no run can have.
 void validate(const SimulationSetup&);
+
+// Keys of [numerics] that do not go together: the one at fault, and "value ... with ...: allowed: ...".
+struct Conflict {
+  std::string key, what;
+};
+std::vector<Conflict> conflicts(const NumericsSetup&);
+
+// The same of a wall's tension limit; empty: none. Where a wall holds better than the fluid itself, the fluid
+// parts beside the wall; and what such a wall pulls in has no store of energy to come from.
+std::string tension_conflict(double wall_limit, const NumericsSetup&);
 
 // Whether the stress is a yield stress plus a viscous one.
 bool allows_exact_yield(RheologyKind);

@@ -168,46 +168,22 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
   }
 }
 
-// Where a wall holds better than the fluid itself, the fluid parts beside the wall; and what such a wall
-// pulls in has no store of energy to come from.
 void check_tension_limits(const Case& c, CaseProblems& problems) {
-  for (std::size_t i = 0; i < c.walls.size(); ++i)
-    if (c.walls[i].tension_limit > c.numerics.tension_limit)
-      problems.add("wall." + std::to_string(i) + ".tension_limit",
-                   "value " + show(c.walls[i].tension_limit) +
-                       ": allowed: up to what the fluid bears, numerics.tension_limit = " +
-                       show(c.numerics.tension_limit) + " [Pa]");
+  for (std::size_t i = 0; i < c.walls.size(); ++i) {
+    const std::string conflict = tension_conflict(c.walls[i].tension_limit, c.numerics);
+    if (!conflict.empty()) problems.add("wall." + std::to_string(i) + ".tension_limit", conflict);
+  }
 }
 
-// The exact yield stress is the minimum of an energy: one of an implicit Euler step with the radial operator.
-void check_exact_yield(const Case& c, CaseProblems& problems) {
-  const NumericsSetup& n = c.numerics;
-  if (n.yield != YieldModel::exact) return;
-  const std::string with = " with numerics.yield = \"exact\": allowed: ";
-  if (n.theta != 1) problems.add("numerics.theta", "value " + show(n.theta) + with + "1");
-  if (n.viscous_operator != ViscousOperator::radial)
-    problems.add("numerics.operator", "value \"laplacian\"" + with + "\"radial\"");
-  if (n.viscous_step != ViscousStepping::implicit_step)
-    problems.add("numerics.viscous_step", "value \"explicit\"" + with + "\"implicit\"");
+void check_numerics(const Case& c, CaseProblems& problems) {
+  for (const Conflict& conflict : conflicts(c.numerics)) problems.add(conflict.key, conflict.what);
+  if (c.numerics.yield != YieldModel::exact) return;
   for (const FluidSpec& fluid : c.fluids)
     if (!allows_exact_yield(fluid.rheology))
       problems.add("fluid." + fluid.name + ".rheology",
-                   "value \"" + std::string(fluid.info().name) + "\"" + with +
-                       "\"newtonian\", \"bingham\", \"herschel-bulkley\", \"carreau-yasuda\"");
-}
-
-// The device repeats iterations that decide by themselves whether they go on.
-void check_solver_loop(const Case& c, CaseProblems& problems) {
-  const NumericsSetup& n = c.numerics;
-  if (n.solver_loop != SolverLoop::conditional) return;
-  const auto refuse = [&](const char* with) {
-    problems.add("numerics.solver_loop",
-                 "value \"conditional\" with " + std::string(with) + ": allowed: \"batch\"");
-  };
-  if (n.solver == ViscousSolver::sor) refuse("numerics.solver = \"sor\"");
-  if (n.solver == ViscousSolver::jacobi) refuse("numerics.solver = \"jacobi\"");
-  if (n.viscous_step == ViscousStepping::explicit_step) refuse("numerics.viscous_step = \"explicit\"");
-  if (n.yield == YieldModel::exact) refuse("numerics.yield = \"exact\"");
+                   "value \"" + std::string(fluid.info().name) +
+                       "\" with numerics.yield = \"exact\": allowed: \"newtonian\", \"bingham\", "
+                       "\"herschel-bulkley\", \"carreau-yasuda\"");
 }
 
 }  // namespace
@@ -218,8 +194,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_measures(c, problems);
   check_stop(c, problems);
   check_tension_limits(c, problems);
-  check_exact_yield(c, problems);
-  check_solver_loop(c, problems);
+  check_numerics(c, problems);
 }
 
 }  // namespace slagflow

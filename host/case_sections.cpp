@@ -296,14 +296,13 @@ void read_numerics(CaseTable& top, Case& c) {
 
 void read_output(CaseTable& top, Case& c) {
   CaseTable t = top.table("output");
-  constexpr double most_snapshots = 1e6, most_lines = 1e8;
   const bool timed = t.read("end_time", c.output.end_time, above(0, "s"), Need::required);
   c.output.interval = c.output.end_time / 50;
   t.read("interval", c.output.interval,
          timed ? at_least(c.output.end_time / most_snapshots, "s") : above(0, "s"));
   c.output.history_interval = c.output.interval / 10;
   t.read("history_interval", c.output.history_interval,
-         timed ? at_least(c.output.end_time / most_lines, "s") : above(0, "s"));
+         timed ? at_least(c.output.end_time / most_history_lines, "s") : above(0, "s"));
   t.read("walls", c.output.walls);
   t.read("checkpoint_interval", c.output.checkpoint_interval, at_least(0, "s"));
   t.read("stop_after", c.output.stop_after);

@@ -16,6 +16,9 @@ extern const std::vector<std::string> kernel_names, slip_names, pressure_names, 
 Direction direction_of(int index);  // into direction_names
 int index_of(const Direction& direction);
 
+// Of a run, to its end time.
+constexpr double most_snapshots = 1e6, most_history_lines = 1e8;
+
 // Letters, digits, _ - . with a letter, digit or _ at the start: safe as a file name and a key.
 bool is_plain_name(const std::string& name);
 

@@ -180,6 +180,12 @@ bool CaseTable::wrong_type(const char* key, const Toml& value, const std::string
   return false;
 }
 
+bool CaseTable::beyond_numbers(const char* key, const Toml& entry, const std::string& allowed) {
+  problem(key, "entry " + show(entry) + " is out of range: allowed: " + allowed + ", each " +
+                   any_number("").text());
+  return false;
+}
+
 bool CaseTable::read(const char* key, double& target, const Range& range, Need need) {
   const Toml* value = find(key, need, range.text());
   if (!value) return false;
@@ -264,9 +270,11 @@ bool CaseTable::read(const char* key, std::vector<Vec3d>& target, const std::str
   for (const Toml& row : value->as_array()) {
     rows.emplace_back();
     if (!row.is_array() || row.as_array().size() != 3) return wrong_type(key, *value, allowed);
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
       if (!number_of(row.as_array()[static_cast<std::size_t>(k)], rows.back()[k]))
         return wrong_type(key, *value, allowed);
+      if (!any_number("").holds(rows.back()[k])) return beyond_numbers(key, row, allowed);
+    }
   }
   target = rows;
   return true;
@@ -280,6 +288,7 @@ bool CaseTable::read(const char* key, std::vector<double>& target, const std::st
   for (const Toml& entry : value->as_array()) {
     numbers.emplace_back();
     if (!number_of(entry, numbers.back())) return wrong_type(key, *value, allowed);
+    if (!any_number("").holds(numbers.back())) return beyond_numbers(key, entry, allowed);
   }
   target = numbers;
   return true;

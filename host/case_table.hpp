@@ -116,6 +116,7 @@ class CaseTable {
  private:
   const Toml* find(const char* key, Need need, const std::string& allowed);
   bool wrong_type(const char* key, const Toml& value, const std::string& allowed);
+  bool beyond_numbers(const char* key, const Toml& entry, const std::string& allowed);
 
   const Toml* table_;
   std::string path_;

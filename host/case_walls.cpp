@@ -38,9 +38,26 @@ void read_sine(CaseTable& t, WallMotion& m) {
   t.read("phase", m.phase, any_number("rad"));
 }
 
-// The body is at its place in the first row, from where its particles are.
-void check_first_row(CaseTable& t, const WallMotion& m) {
-  if (norm(m.displacement.front()) != 0)
+const char* const times_allowed = "increasing times [s], at least two";
+
+void check_times(CaseTable& t, const std::vector<double>& time) {
+  const auto wrong = std::adjacent_find(time.begin(), time.end(), std::greater_equal<double>());
+  const std::string allowed = std::string(": allowed: ") + times_allowed;
+  if (wrong != time.end())
+    t.problem("time", "value " + show(*(wrong + 1)) + " follows " + show(*wrong) + allowed);
+  else if (time.size() < 2)
+    t.problem("time", "has " + std::to_string(time.size()) + " entries" + allowed);
+}
+
+// As many as times; and the body is at its place in the first row, from where its particles are.
+void check_rows(CaseTable& t, const WallMotion& m) {
+  const std::string times =
+      " entries for " + std::to_string(m.time.size()) + " times: allowed: as many as times";
+  if (m.displacement.size() != m.time.size())
+    t.problem("displacement", std::to_string(m.displacement.size()) + times);
+  if (!m.angle.empty() && m.angle.size() != m.time.size())
+    t.problem("angle", std::to_string(m.angle.size()) + times);
+  if (!m.displacement.empty() && norm(m.displacement.front()) != 0)
     t.problem("displacement",
               "does not begin with [0, 0, 0]: allowed: displacements from the place at the start");
   if (!m.angle.empty() && m.angle.front() != 0)
@@ -48,22 +65,13 @@ void check_first_row(CaseTable& t, const WallMotion& m) {
 }
 
 void read_rows(CaseTable& t, WallMotion& m) {
-  if (!t.read("time", m.time, "increasing times [s], at least two")) {
-    if (!t.has("time")) t.problem("", "lacks the key 'time': allowed: increasing times [s], at least two");
-  } else if (m.time.size() < 2 ||
-             std::adjacent_find(m.time.begin(), m.time.end(), std::greater_equal<double>()) != m.time.end()) {
-    t.problem("time", "allowed: increasing times [s], at least two");
-  }
+  const bool timed = t.read("time", m.time, times_allowed);
+  if (timed) check_times(t, m.time);
+  if (!t.has("time")) t.problem("", std::string("lacks the key 'time': allowed: ") + times_allowed);
   t.read("displacement", m.displacement, "a list of [x, y, z] [m], one for each time");
   t.read("angle", m.angle, "a list of angles [rad], one for each time");
   if (m.displacement.empty()) m.displacement.resize(m.time.size());
-  if (m.displacement.size() != m.time.size())
-    t.problem("displacement", std::to_string(m.displacement.size()) + " entries for " +
-                                  std::to_string(m.time.size()) + " times: allowed: as many as times");
-  if (!m.angle.empty() && m.angle.size() != m.time.size())
-    t.problem("angle", std::to_string(m.angle.size()) + " entries for " + std::to_string(m.time.size()) +
-                           " times: allowed: as many as times");
-  if (!m.time.empty() && !m.displacement.empty()) check_first_row(t, m);
+  if (timed) check_rows(t, m);
   const bool turns = !m.angle.empty();
   if (t.read("axis", m.axis, any_number(""), turns ? Need::required : Need::optional) && norm(m.axis) == 0)
     t.problem("axis", "value [0, 0, 0] has no direction: allowed: any other");

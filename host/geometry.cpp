@@ -33,6 +33,7 @@ class Filler {
     place_walls([&](std::size_t body) { return !solids_.moves(body); });
     for (std::size_t b = 0; b < solids_.count(); ++b)
       if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
+    warn_of_empty_walls();
     return std::move(result_);
   }
 
@@ -74,12 +75,24 @@ class Filler {
           out.velocity.push_back(initial_velocity(region, out.position.back()));
         });
     if (out.position.size() == first)
-      throw InputError(
-          c_.place_of(key) + ": key '" + key +
-          "': no particle: allowed: shapes that hold a lattice site inside the domain, outside of "
-          "walls and of earlier regions");
+      throw InputError(c_.place_of(key) + ": key '" + key +
+                       "': no particle: allowed: shapes that hold a lattice site " + plane() +
+                       "inside the domain, " + "outside of walls and of earlier regions");
     out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
     set_pressure(region, first);
+  }
+
+  // Where the sites are.
+  std::string plane() const { return c_.dimensions == 2 ? "in the plane y = 0, " : ""; }
+
+  // Fluid passes through them.
+  void warn_of_empty_walls() {
+    const std::vector<std::uint8_t>& bodies = result_.walls.body;
+    for (std::size_t b = 0; b < c_.walls.size(); ++b)
+      if (std::find(bodies.begin(), bodies.end(), b) == bodies.end())
+        result_.warnings.push_back("wall '" + c_.walls[b].name +
+                                   "' has no particle: its shapes hold no lattice site " + plane() +
+                                   "near the inside of the domain, or other walls have them");
   }
 
   // A site, or the place a quarter of a spacing off the wall that it is nearer to than that: a curved or

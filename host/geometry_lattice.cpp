@@ -6,6 +6,7 @@
 
 #include "backend/error.hpp"
 #include "host/geometry.hpp"
+#include "host/toml_reader.hpp"
 
 namespace slagflow {
 namespace {
@@ -60,8 +61,7 @@ Lattice::Lattice(const Case& c)
     const double last = site_above(c.domain.upper[k], c.origin[k], spacing_);
     if (!(std::abs(first) < largest_index && std::abs(last) < largest_index))
       throw InputError(c.place_of("resolution.spacing") + ": key 'resolution.spacing': value " +
-                       std::to_string(spacing_) +
-                       ": the domain reaches more than 1e9 spacings from the origin: " +
+                       show(spacing_) + ": the domain reaches more than 1e9 spacings from the origin: " +
                        "allowed: a larger spacing or a smaller domain");
     const std::int64_t margin = periodic_[axis] ? 0 : layers_;
     first_[axis] = static_cast<std::int64_t>(first) - margin;

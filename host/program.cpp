@@ -9,6 +9,7 @@
 
 #include "backend/error.hpp"
 #include "host/case.hpp"
+#include "host/case_table.hpp"
 #include "host/check.hpp"
 #include "host/info.hpp"
 #include "host/provenance.hpp"
@@ -40,6 +41,15 @@ int report(const RunOutcome& outcome) {
   for (const std::string& line : outcome.results) print(line + "\n");
   return outcome.exit_code();
 }
+
+// As the keys of a case.
+const CLI::Validator above_zero(
+    [](const std::string& text) {
+      double value = 0;
+      if (CLI::detail::lexical_cast(text, value) && above(0, "").holds(value)) return std::string();
+      return "value " + text + ": allowed: " + above(0, "").text();
+    },
+    "");
 
 int run(const Arguments& arguments) {
   return report(run_case(load_case(arguments.file, arguments.overrides), arguments.run));
@@ -73,7 +83,7 @@ void add_case(CLI::App* command, Arguments& arguments) {
 // Those of `run` and `resume`.
 void add_loop_options(CLI::App* command, RunOptions& run) {
   command->add_option("--threads", run.threads, "threads of the CPU build")->check(CLI::Range(1, 4096));
-  command->add_option("--until", run.until, "end at this simulated time [s]")->check(CLI::PositiveNumber);
+  command->add_option("--until", run.until, "end at this simulated time [s]")->check(above_zero);
   command->add_flag_callback(
       "--quiet", [&run] { run.verbosity = Verbosity::quiet; }, "only warnings and errors on stderr");
   command->add_flag("--time-parts", run.time_parts,
@@ -108,10 +118,10 @@ CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
         std::tuple{"--height", &facts.height, "of the wetted bob [m]"},
         std::tuple{"--full-scale-torque", &facts.full_scale_torque, "where torque is in per cent [N m]"},
         std::tuple{"--density", &facts.density, "of the fluid [kg/m^3]"}})
-    command->add_option(name, *fact, what)->check(CLI::PositiveNumber);
+    command->add_option(name, *fact, what)->check(above_zero);
   command->add_option("--name", facts.name, "of the fluid (default: the name of the file)");
   command->add_option("--growth-exponent", options.growth_exponent, "m of the fluid's table [s]")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero);
   command->add_flag_callback(
       "--relative-errors", [&options] { options.errors = ErrorModel::relative; },
       "the readings are uncertain by the same share, not by the same stress");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "backend/error.hpp"
 #include "host/case_sections.hpp"
@@ -17,6 +18,9 @@ namespace {
 
 constexpr double close_call = 2;       // AICc: a smaller difference does not tell two models apart
 constexpr double most_flow_index = 2;  // that a case file allows
+
+// In the first line of what is written.
+constexpr const char *table_mark = " by slagflow ", *curves_mark = ",measured_Pa";
 
 template <class... Arguments>
 std::string print(const char* pattern, Arguments... arguments) {
@@ -75,6 +79,14 @@ std::size_t choose(const RheometryResult& result, const RheometryOptions& option
   return static_cast<std::size_t>(found - result.fits.begin());
 }
 
+// What an earlier fit left may be replaced, other files not. `mark` is in the first line of such a file.
+void require_own(const std::string& path, const std::string& mark) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line.find(mark) != std::string::npos) return;
+  throw InputError("output " + path + ": is there and not by slagflow rheometry: allowed: another name");
+}
+
 // Before anything is written. Returns the path of the curves.
 std::string require_output(const RheometryOptions& options) {
   std::filesystem::path path(options.output);
@@ -85,6 +97,8 @@ std::string require_output(const RheometryOptions& options) {
   if (std::filesystem::equivalent(curves, options.file, ignored))
     throw InputError("output " + options.output + ": its curves would replace the measurements in " + curves +
                      ": allowed: another name");
+  require_own(options.output, table_mark);
+  require_own(curves, curves_mark);
   return curves;
 }
 
@@ -166,7 +180,7 @@ std::string to_text(const RheometryResult& result) {
 std::string to_fluid_table(const RheometryResult& result, const RheometryOptions& options) {
   const FlowFit& best = result.best();
   const Provenance here = build_provenance();
-  std::string text = "# " + std::filesystem::path(options.file).filename().string() + " by slagflow " +
+  std::string text = "# " + std::filesystem::path(options.file).filename().string() + table_mark +
                      here.version + " (" + here.commit +
                      "): " + std::to_string(result.measured.curve.rate.size()) + " points, " +
                      (options.model ? "model as asked for" : "model chosen by AICc") + ".\n";
@@ -186,7 +200,7 @@ std::string to_fluid_table(const RheometryResult& result, const RheometryOptions
 
 std::string to_curves(const RheometryResult& result) {
   const FlowCurve& curve = result.measured.curve;
-  std::string text = curve.cylinders ? "rotation_rad/s,measured_Pa" : "shear_rate_1/s,measured_Pa";
+  std::string text = (curve.cylinders ? "rotation_rad/s" : "shear_rate_1/s") + std::string(curves_mark);
   for (const FlowFit& fit : result.fits) text += std::string(",") + name_of(fit.model) + "_Pa";
   text += "\n";
   const auto add = [&](const std::vector<double>& rates, const std::vector<double>& measured) {

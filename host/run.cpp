@@ -1,11 +1,13 @@
 #include "host/run.hpp"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <utility>
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "host/case_sections.hpp"
 #include "host/check.hpp"
 #include "host/checkpoint_store.hpp"
 #include "host/geometry.hpp"
@@ -45,6 +47,16 @@ void require_loops(const Case& c) {
                      ": allowed: \"batch\"");
 }
 
+// As long as the intervals of the case allow, or its checkpoints could not be read again.
+void end_at(double until, Case& c) {
+  if (c.output.interval < until / most_snapshots || c.output.history_interval < until / most_history_lines)
+    throw InputError(
+        "--until " + show(until) + ": allowed: up to " +
+        show(std::min(c.output.interval * most_snapshots, c.output.history_interval * most_history_lines)) +
+        " s with this output.interval and output.history_interval");
+  c.output.end_time = until;
+}
+
 std::string already_there(const RunRecord& run, const Case& c) {
   return "the run has reached its end of " + std::to_string(c.output.end_time) + " s already, at " +
          std::to_string(run.time) + " s; --until SECONDS takes it further";
@@ -60,10 +72,11 @@ int RunOutcome::exit_code() const {
 RunOutcome run_case(const Case& c, const RunOptions& options) {
   require_loops(c);
   Case limited = c;
-  if (options.until) limited.output.end_time = *options.until;
+  if (options.until) end_at(*options.until, limited);
   if (options.threads > 0) set_threads(options.threads);
   const std::string folder = run_folder(c, options);
   require_free_folder(folder, options.overwrite);
+  require_not_the_case(folder, c.file);
   BuiltCase built = build_setup(limited);
   built.setup.time_parts = options.time_parts;
   const double on_device = device_info().memory;
@@ -90,7 +103,7 @@ RunOutcome resume_run(const RunOptions& options) {
   require_same_build(found);
   Case c = parse_case(found.checkpoint.text("case_text"), found.path);
   require_loops(c);
-  if (options.until) c.output.end_time = *options.until;
+  if (options.until) end_at(*options.until, c);
 
   Log log(options.verbosity);
   log.open(folder + "/log.txt", std::ios::app);

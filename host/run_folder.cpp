@@ -43,6 +43,14 @@ void require_free_folder(const std::string& folder, Overwrite overwrite) {
                      ": holds files already; --overwrite replaces an earlier run, -o takes another folder");
 }
 
+void require_not_the_case(const std::string& folder, const std::string& case_file) {
+  const fs::path path = fs::path(folder) / "case.toml";
+  std::error_code failed;
+  if (!fs::equivalent(path, case_file, failed) || fs::exists(fs::path(folder) / "log.txt", failed)) return;
+  throw InputError(path.string() +
+                   ": is the case itself, which the run would replace; -o takes another folder");
+}
+
 FolderLock::FolderLock(const std::string& folder)
     : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (folder_ < 0 || flock(folder_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;

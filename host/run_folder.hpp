@@ -13,6 +13,9 @@ std::string run_folder(const Case& c, const RunOptions& options);
 // Throws InputError if the folder holds anything and must not be overwritten, or is no folder.
 void require_free_folder(const std::string& folder, Overwrite overwrite);
 
+// Throws InputError if the run would put its case.toml in the place of the case file, which no run has left.
+void require_not_the_case(const std::string& folder, const std::string& case_file);
+
 // Holds an existing folder for one run at a time, also against other programs; the system ends it with the
 // process. File systems without locks are trusted.
 class FolderLock {

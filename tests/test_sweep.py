@@ -80,6 +80,14 @@ class Sweep(unittest.TestCase):
         self.assertIn("key 'when.match.fraction': value 0.7: allowed: 0.0, 0.5", self.error("fraction = 0.5}", "fraction = 0.7}"))
         self.assertIn("key 'exclude.water': unknown: allowed: oil, fraction", self.error('oil = "A"\nfraction', 'water = "A"\nfraction'))
         self.assertIn("fall.toml", self.error("[sweep]", "[sweep"))
+        for wrong in ("0.5", '"0.5"', "{low = 0.5}"):
+            self.assertIn("key 'axis.1.values': value", self.error("[0.0, 0.5]", wrong))
+        self.assertIn("allowed: numbers, texts", self.error("[0.0, 0.5]", "[2020-01-01]"))
+        self.assertIn("key 'axis.1.key': value 3: allowed: a dotted key", self.error('"fluid.oil.fraction"', "3"))
+        self.assertIn("key 'exclude': value", self.error("[[exclude]]", "[exclude]"))
+        self.file.write_bytes(b"\xff" + SWEEP.encode())
+        with self.assertRaisesRegex(plan.SweepError, "fall.toml: not UTF-8"):
+            plan.read_sweep(self.file)
 
     def test_gathers_measures_and_failures(self):
         self.file.write_text(SWEEP)

@@ -54,6 +54,18 @@ class Reader:
                 self.fail(f"key '{where}.{key}': unknown: allowed: {', '.join(sorted(KEYS[kind]))}".replace("'.", "'"))
         return value
 
+    def list_of(self, value, where):
+        if not isinstance(value, list):
+            self.fail(f"key '{where}': value {value!r}: allowed: a list")
+        return value
+
+    def value(self, value, where):
+        try:
+            toml_text(value)
+        except TypeError:
+            self.fail(f"key '{where}': value {value}: allowed: numbers, texts, true, false and lists of them")
+        return value
+
     def overrides(self, value, where):
         """Dotted keys; nested tables, as TOML makes of unquoted dotted keys, are flattened."""
         if not isinstance(value, dict):
@@ -63,7 +75,7 @@ class Reader:
             if isinstance(entry, dict):
                 flat |= {f"{key}.{rest}": v for rest, v in self.overrides(entry, f"{where}.{key}").items()}
             else:
-                flat[key] = entry
+                flat[key] = self.value(entry, f"{where}.{key}")
         return flat
 
     def name(self, value, where):
@@ -75,16 +87,19 @@ class Reader:
     def axis(self, table, where):
         """Name and [(value, label, overrides)] of an axis."""
         self.table(table, where, "axis")
+        if not isinstance(table.get("key", ""), str):
+            self.fail(f"key '{where}.key': value {table['key']!r}: allowed: a dotted key of the case")
         name = self.name(table.get("name", table.get("key", "").split(".")[-1]), f"{where}.name")
         if ("values" in table) == ("points" in table):
             self.fail(f"axis '{name}': allowed: either `key` and `values`, or `points`")
         if "values" in table:
             if not isinstance(table.get("key"), str):
                 self.fail(f"axis '{name}': key 'key': missing: required: a dotted key of the case")
-            entries = [(v, self.name(v, f"{where}.values"), {table["key"]: v}) for v in table["values"]]
+            values = [self.value(v, f"{where}.values") for v in self.list_of(table["values"], f"{where}.values")]
+            entries = [(v, self.name(v, f"{where}.values"), {table["key"]: v}) for v in values]
         else:
             entries = []
-            for point in table["points"]:
+            for point in self.list_of(table["points"], f"{where}.points"):
                 self.table(point, f"{where}.points", "point")
                 label = self.name(point.get("name", ""), f"{where}.points.name")
                 entries.append((label, label, self.overrides(point.get("set", {}), f"{where}.points.set")))
@@ -114,6 +129,8 @@ class Reader:
             self.fail(f"cannot be read: {error.strerror}")
         except tomllib.TOMLDecodeError as error:
             self.fail(error)
+        except UnicodeDecodeError:
+            self.fail("not UTF-8")
         self.table(root, "", "")
         about = self.table(root.get("sweep", {}), "sweep", "sweep")
         if not isinstance(about.get("case"), str):
@@ -129,13 +146,13 @@ class Reader:
 
     def points(self, root):
         common = self.overrides(root.get("set", {}), "set")
-        axes = [self.axis(table, f"axis.{k}") for k, table in enumerate(root.get("axis", []))]
+        axes = [self.axis(table, f"axis.{k}") for k, table in enumerate(self.list_of(root.get("axis", []), "axis"))]
         names = [name for name, _ in axes]
         if not axes or len(set(names)) < len(names):
             self.fail(f"axes {names}: allowed: at least one, each with a name of its own")
-        excluded = [self.match(rule, "exclude", axes) for rule in root.get("exclude", [])]
+        excluded = [self.match(rule, "exclude", axes) for rule in self.list_of(root.get("exclude", []), "exclude")]
         rules = []
-        for table in root.get("when", []):
+        for table in self.list_of(root.get("when", []), "when"):
             self.table(table, "when", "when")
             rules.append((self.match(table.get("match"), "when.match", axes), self.overrides(table.get("set"), "when.set")))
         points = []

@@ -85,6 +85,8 @@ INSTANTIATE_TEST_SUITE_P(, ShearStress, testing::ValuesIn(all_scenes()),
 
 // A stress that grows evenly through a lattice, eta u' = (1 + 10 z) Pa with z in m from the middle, under an
 // even shear and under one that grows: up to the lattice's factor, that of a uniform shear, both tell 1 Pa.
+// The viscosity of the second is curved, and the mean of two of its points is beside the one between them: by
+// 18.75 z^2 + 4219 z^4 of a pair, weighted over the lattice 0.25 %.
 TEST(ShearStressOnALattice, OfALinearStressIsThatStress) {
   Scene scene({3, Surroundings::free, 9, 0, 1});
   const double middle = 4.5 * Scene::spacing;
@@ -100,7 +102,7 @@ TEST(ShearStressOnALattice, OfALinearStressIsThatStress) {
     if (slope == 0)
       uniform = centre;
     else
-      EXPECT_NEAR(centre / uniform, 1, 0.01);
+      EXPECT_NEAR(centre / uniform, 1.0025, 1e-4);
   }
   EXPECT_NEAR(uniform, viscosity_correction(scene.setup) * 0.927, 0.002);
 }

@@ -1,7 +1,8 @@
-// Forces on walls balance the momentum of the fluid, also of walls that move; and moving walls resume to the
-// bit.
+// Forces on walls balance the momentum of the fluid, also where walls move; moving walls resume to the bit.
 #include <gtest/gtest.h>
 
+#include "backend/error.hpp"
+#include "constants.hpp"
 #include "simulation.hpp"
 #include "simulation_setups.hpp"
 
@@ -36,7 +37,7 @@ void solve_well(SimulationSetup& s, const Scheme& scheme) {
   s.numerics.yield = scheme.yield;
   s.numerics.tension_limit = scheme.tension;
   for (WallBody& body : s.bodies) body.tension_limit = scheme.wall_tension;
-  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000, s.numerics.yield_iterations = 2000;
+  s.numerics.tolerance = 1e-9, s.numerics.max_iterations = 2000;
 }
 
 class WallForcesOf : public testing::TestWithParam<Scheme> {};
@@ -104,9 +105,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& p) { return p.param.name; });
 
 // A tank upside down, its fluid bears any tension: it hangs from a wall that does so too and falls freely
-// from one that bears none. Bounds: the column swings by its compressibility, a few per cent of a fall;
-// the two differ by a whole one. (Later the particles under tension clump and
-// it parts, as in any such method.)
+// from one that bears none. Bounds: the column swings by its compressibility, a few per cent of a fall; the
+// two differ by a whole one. (Later the particles under tension clump and it parts, as in any such method.)
 TEST(WallForces, FluidHangsFromAWallThatBearsTensionAlone) {
   for (const double limit : {-1.0, 0.0}) {
     SimulationSetup s = tank(oil());
@@ -122,6 +122,24 @@ TEST(WallForces, FluidHangsFromAWallThatBearsTensionAlone) {
       EXPECT_NEAR(speed / fall, 0, 0.05);
     else
       EXPECT_NEAR(speed / fall, 1, 0.02);
+  }
+}
+
+TEST(WallForces, AWallThatBearsMoreTensionThanTheFluidIsRefused) {
+  SimulationSetup s = tank(oil());
+  s.numerics.tension_limit = 20;
+  for (const double limit : {-1.0, 0.0, 20.0}) {
+    s.bodies[0].tension_limit = limit;
+    EXPECT_NO_THROW(validate(s)) << limit;
+  }
+  s.bodies[0].tension_limit = 20.5;
+  try {
+    validate(s);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "tension_limit of wall \"floor\": value 20.5: allowed: up to what the fluid "
+                 "bears, numerics.tension_limit = 20 [Pa]");
   }
 }
 

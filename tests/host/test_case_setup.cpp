@@ -67,6 +67,8 @@ TEST(SetupBuilder, RefusesWhatCannotRun) {
   c = unit_case();
   c.regions[0].shapes = {box({4.6, 4.6, 4.6}, {5.4, 5.4, 5.4})};
   EXPECT_THAT(error_of(c), testing::HasSubstr("unit.toml:12: key 'region.0': no particle"));
+  c.dimensions = 2;
+  EXPECT_THAT(error_of(c), testing::HasSubstr("a lattice site in the plane y = 0, inside the domain"));
   c = unit_case();
   c.walls = {wall("w", {stl_shape(write_temp_file("empty.stl", "solid\nendsolid\n"))})};
   EXPECT_THAT(error_of(c), testing::HasSubstr("key 'wall.0.shapes.0': "));
@@ -79,7 +81,9 @@ TEST(SetupBuilder, RefusesMoreThanTheMemoryHolds) {
               testing::AllOf(testing::HasSubstr("unit.toml:5: key 'resolution.spacing'"),
                              testing::HasSubstr("GB of memory"), testing::HasSubstr("available")));
   c.spacing = 1e-12;
-  EXPECT_THAT(error_of(c), testing::HasSubstr("more than 1e9 spacings from the origin"));
+  EXPECT_THAT(error_of(c),
+              testing::HasSubstr("value 1e-12: the domain reaches more than 1e9 spacings from the "
+                                 "origin"));
   c = unit_case();
   c.domain.lower = {-1e29, -1e29, -1e29};
   c.domain.upper = {1e29, 1e29, 1e29};

@@ -68,10 +68,9 @@ TEST(CaseWalls, BearAsMuchTensionAsTheFluidOrLess) {
   EXPECT_EQ(limit("tension_limit = 'auto'\n"), -1);
   EXPECT_EQ(limit("tension_limit = 5\n"), 5);
   EXPECT_EQ(limit("tension_limit = 20\n"), 20);
-  EXPECT_THAT(
-      message_of("tension_limit = 21\n" + fluid),
-      testing::HasSubstr("key 'wall.0.tension_limit': value 21.0: allowed: up to what the fluid bears, "
-                         "numerics.tension_limit = 20.0 [Pa]"));
+  EXPECT_THAT(message_of("tension_limit = 21\n" + fluid),
+              testing::HasSubstr("key 'wall.0.tension_limit': value 21: allowed: up to what the fluid bears, "
+                                 "numerics.tension_limit = 20 [Pa]"));
   EXPECT_THAT(message_of("tension_limit = -1"),
               testing::HasSubstr("value -1 is out of range: allowed: a number >= 0.0 [Pa, or \"auto\"]"));
   EXPECT_THAT(message_of("tension_limit = 'none'"), testing::HasSubstr("[Pa, or \"auto\"]"));
@@ -137,7 +136,14 @@ TEST(CaseWalls, NameWhatIsWrongWithAMotion) {
   EXPECT_THAT(message_of("remove_at = -1"), HasSubstr("'wall.0.remove_at': value -1"));
   EXPECT_THAT(table("displacement=[[0,0,0]]"), HasSubstr("lacks the key 'time'"));
   EXPECT_THAT(table("time=[0, 2, 1], displacement=[[0,0,0],[1,0,0],[1,0,0]]"),
-              HasSubstr("'wall.0.motion.time': allowed: increasing times"));
+              HasSubstr("'wall.0.motion.time': value 1.0 follows 2.0: allowed: increasing times"));
+  EXPECT_THAT(table("time=[0], displacement=[[0,0,0]]"), HasSubstr("'wall.0.motion.time': has 1 entries"));
+  EXPECT_THAT(table("time=[0, nan], angle=[0, 1], axis=[0, 1, 0]"),
+              HasSubstr("'wall.0.motion.time': entry nan is out of range"));
+  EXPECT_THAT(table("time=[0, 1], angle=[0, inf], axis=[0, 1, 0]"),
+              HasSubstr("'wall.0.motion.angle': entry inf is out of range"));
+  EXPECT_THAT(table("time=[0, 1], displacement=[[0,0,0],[nan,0,1]]"),
+              HasSubstr("'wall.0.motion.displacement': entry [nan, 0, 1] is out of range"));
   EXPECT_THAT(table("time=[0, 1], displacement=[[0,0,0]]"), HasSubstr("1 entries for 2 times"));
   EXPECT_THAT(table("time=[0, 1], displacement=[[1,0,0],[1,0,0]]"),
               HasSubstr("does not begin with [0, 0, 0]"));
@@ -150,6 +156,21 @@ TEST(CaseWalls, AFastWallIsWarnedOf) {
   const BuiltCase built = build_setup(read("motion = {type='constant', velocity=[0, 0, 3]}"));
   ASSERT_EQ(built.warnings.size(), 1u);
   EXPECT_THAT(built.warnings[0], testing::HasSubstr("wall 'floor' moves at up to 3.000000 m/s"));
+}
+
+// A floor of half a millimetre, and in two dimensions one that begins beside the plane.
+TEST(CaseWalls, AWallWithoutAParticleIsWarnedOf) {
+  const Case thin = parse_case(pool(""), "pool.toml",
+                               {"wall.0.shapes=[{shape='box', min=[0, 0, -5e-4], max=[0.01, 0.01, 0]}]"});
+  ASSERT_EQ(build_setup(thin).warnings.size(), 1u);
+  EXPECT_THAT(build_setup(thin).warnings[0], testing::HasSubstr("wall 'floor' has no particle"));
+  const std::string region = "region.0.shapes=[{shape='box', min=[0, -1, 0], max=[0.01, 1, 0.01]}]";
+  const Case flat = parse_case(pool(""), "pool.toml",
+                               {"resolution.dimensions=2", region,
+                                "wall.0.shapes=[{shape='box', min=[-1, 1e-3, -0.006], max=[1, 0.01, 0]}]"});
+  ASSERT_EQ(build_setup(flat).warnings.size(), 1u);
+  EXPECT_THAT(build_setup(flat).warnings[0], testing::HasSubstr("in the plane y = 0"));
+  EXPECT_TRUE(build_setup(read("")).warnings.empty());
 }
 
 // A plate on the floor hides no site of it, and has a face below: either is bare when it lifts.

@@ -55,7 +55,11 @@ TEST_F(Program, BadArgumentsGiveTwo) {
   EXPECT_EQ(call({"walk"}).code, 2);
   EXPECT_EQ(call({"run"}).code, 2);
   EXPECT_EQ(call({"run", case_file(), "--threads", "0"}).code, 2);
-  EXPECT_EQ(call({"run", case_file(), "--until", "-1"}).code, 2);
+  for (const char* until : {"-1", "0", "nan", "inf", "1e31", "soon"}) {
+    const Result refused = call({"run", case_file(), "--until", until});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr(std::string("--until: value ") + until + ": allowed: a number > 0.0"));
+  }
   const Result result = call({"run", case_file(), "--fast"});
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.out, "");

@@ -51,6 +51,28 @@ class Rheometry : public testing::Test {
   const TempFolder folder_;
 };
 
+TEST_F(Rheometry, ReplacesWhatItWroteButNoOtherFile) {
+  const std::string output = folder_ / "a.toml", curves = folder_ / "a.csv";
+  for (int k = 0; k < 2; ++k) EXPECT_EQ(rheometry_command({slurry(), "-o", output}).code, 0);
+  for (const std::string& other : {output, curves}) {
+    const std::string kept = read_text_file(other);
+    std::ofstream(other, std::ios::trunc) << "something else\n";
+    const Said said = rheometry_command({slurry(), "-o", output});
+    EXPECT_EQ(said.code, 2);
+    EXPECT_THAT(said.err, HasSubstr("output " + other + ": is there and not by slagflow rheometry"));
+    EXPECT_EQ(read_text_file(other), "something else\n");
+    std::ofstream(other, std::ios::trunc) << kept;
+  }
+}
+
+TEST_F(Rheometry, RefusesOptionsThatAreNoNumberAboveZero) {
+  for (const char* value : {"nan", "inf", "0", "-1", "thick"}) {
+    const Said said = rheometry_command({slurry(), "--density", value});
+    EXPECT_EQ(said.code, 2);
+    EXPECT_THAT(said.err, HasSubstr(std::string("--density: value ") + value + ": allowed: a number > 0.0"));
+  }
+}
+
 TEST_F(Rheometry, GivesTheFluidTableThatACaseTakes) {
   const std::string output = folder_ / "rheology.toml";
   const Said said = rheometry_command({slurry(), "-o", output});

@@ -121,6 +121,32 @@ TEST(Run, OverwritesOnlyItsOwnFiles) {
   EXPECT_NE(read_text_file(folder / "run/checkpoint.h5"), "old");
 }
 
+TEST(Run, DoesNotReplaceTheCaseThatItIsGiven) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "run");
+  const std::string text = "# mine\n" + tiny_case();
+  std::ofstream(folder / "run/case.toml") << text;
+  RunOptions options = into(folder);
+  options.overwrite = Overwrite::replace;
+  EXPECT_THROW(run_case(load_case(folder / "run/case.toml"), options), InputError);
+  EXPECT_EQ(read_text_file(folder / "run/case.toml"), text);
+  std::ofstream(folder / "run/log.txt") << "an earlier run";
+  EXPECT_EQ(run_case(load_case(folder / "run/case.toml"), options).status, RunStatus::done);
+}
+
+TEST(Run, IsNoLongerThanItsCheckpointsCouldTell) {
+  const TempFolder folder;
+  RunOptions options = into(folder);
+  options.until = 1e9;
+  try {
+    run_text(tiny_case(), options);
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("--until 1e+09: allowed: up to "));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "run"));
+}
+
 TEST(Run, RefusesAFileInPlaceOfItsFolder) {
   const TempFolder folder;
   std::ofstream(folder / "run") << "a file";
