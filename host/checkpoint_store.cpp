@@ -97,7 +97,9 @@ FoundCheckpoint CheckpointStore::read_newest() const {
       found.damaged.emplace_back(error.what());
     }
   }
-  if (found.damaged.empty()) throw Error(folder_ + ": holds no " + checkpoint_name + " to resume from");
+  if (found.damaged.empty())
+    throw InputError(folder_ + ": holds no " + checkpoint_name +
+                     " to resume from: allowed: the folder of a run");
   std::string reasons = folder_ + ": holds no checkpoint that can be used";
   for (const std::string& reason : found.damaged) reasons += "\n  " + reason;
   throw Error(reasons);

@@ -253,7 +253,7 @@ TEST_F(Resume, RefusesWhatIsNoFolderOfARun) {
   EXPECT_EQ(call(resume_command("missing")), 2);
   EXPECT_THAT(said(), HasSubstr("missing: is no folder"));
   std::filesystem::create_directory(folder_ / "empty");
-  EXPECT_EQ(call(resume_command("empty")), 1);
+  EXPECT_EQ(call(resume_command("empty")), 2);
   EXPECT_THAT(said(), HasSubstr("holds no checkpoint.h5"));
 }
 
