@@ -185,10 +185,12 @@ inline void gather(const Block* from, const Index* at, Lanes (&parts)[4]) {
     return;
   }
 #endif
+  Real values[4][lane_count];
   for (int k = 0; k < lane_count; ++k) {
     const Block block = from[at[k]];
-    parts[0].v[k] = block.x, parts[1].v[k] = block.y, parts[2].v[k] = block.z, parts[3].v[k] = block.w;
+    values[0][k] = block.x, values[1][k] = block.y, values[2][k] = block.z, values[3][k] = block.w;
   }
+  for (int part = 0; part < 4; ++part) parts[part] = load_lanes(values[part]);
 }
 
 #if defined(__AVX2__)
