@@ -65,7 +65,7 @@ class ViscousStep {
   void begin_solve(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
   SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,
                     Buffer<Quad>& increment);
-  SolveResult by_multigrid(const LinearSystem&, const RowCells&, const SolveLimits&, const SolveState& now,
+  SolveResult by_multigrid(const LinearSystem&, const RowCells&, const SolveLimits&, const SolveState& begun,
                            Buffer<Quad>& increment);
   void add_increment(const Buffer<Quad>& increment);
   AddAndGuess end_solve(FluidArrays&);

@@ -69,7 +69,7 @@ class CoarseMatrix {
   explicit CoarseMatrix(Context&);
 
   // Finds the aggregates: of rows, the occupied cells, or of those of the next finer level. Waits.
-  void find(const RowCells&, Index rows);
+  void find(const RowCells&, Index row_count);
   void find(const CoarseView& finer);
   // The matrix, of the fine system or of the next finer level; may be recorded.
   void assemble(const LinearSystem&, const RowCells&);
