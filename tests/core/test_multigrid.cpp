@@ -202,7 +202,7 @@ TEST_P(Coarsened, DenseInverseTimesTheMatrixIsOne) {
       largest = std::max(largest, std::fabs(sum));
     }
   }
-  EXPECT_LT(largest, 1e-8);
+  EXPECT_LT(largest, 1e-11);  // rounding leaves 4e-16 to 1.3e-13
 }
 
 TEST_P(Coarsened, LevelsArePreparedForOneArrangementOfTheRows) {

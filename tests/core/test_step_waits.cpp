@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "graph_loops.hpp"
 #include "simulation_setups.hpp"
 
 namespace slagflow {
 namespace {
 
 using namespace testing_tools;
-
-bool on_gpu() { return device_info().backend == "cuda"; }
 
 DeviceCounts counts_of_step(Simulation& simulation) {
   const DeviceCounts before = simulation.device_counts();
