@@ -2,6 +2,7 @@
 #include "density.hpp"
 #include "lane_math.hpp"
 #include "smoothing/lucy.hpp"
+#include "walls/contact.hpp"
 #include "walls/wall_tension.hpp"
 
 namespace slagflow {
@@ -9,15 +10,18 @@ namespace slagflow {
 namespace {
 
 struct PairSums {
-  Lanes divergence = 0, diffusion = 0, shear = 0;
+  Lanes approach = 0;  // of the fluid, relative change of the density [1/s]
+  Lanes squeeze = 0;   // by the walls, relative change in the last step
+  Lanes diffusion = 0, shear = 0;
+  Lanes distance = Real(1e30);  // from the nearest wall [m]
 };
 
 // Particle i as its pairs see it.
 struct Centre {
   Vec3 place, velocity;
-  Real excess;        // density - rest density
-  Real slope;         // gradient of the density over the acceleration that it gives
-  Vec3 acceleration;  // by pressure
+  Real excess;  // density - rest density
+  Real rest_density;
+  Vec3 by_pressure;  // force per volume
 };
 
 // Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
@@ -26,75 +30,91 @@ struct DensityAndShear {
   PairContext c;
   Smoothing smoothing;
   Box box;
-  Real dt;
-  Span<Real> excess, shear_rate;
+  Real moved;              // [s]
+  Real inverse_stiffness;  // 1/c0^2
+  Span<Real> excess, shear_rate, contact;
 
   HOST_DEVICE void operator()(Index i) const {
     const Quad motion = c.fluid.motion[i];
-    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
-    const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w,
-                        rest_density / c.flow.sound_speed_squared, xyz(c.fluid.by_pressure[i])};
+    const FluidConstants& kind = c.fluids[c.fluid.fluid[i]];
+    const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w, kind.rest_density,
+                        xyz(c.fluid.by_pressure[i])};
     PairSums sums;
     add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
-    const Real rate =
-        (rest_density + motion.w) * total(sums.divergence) + c.flow.diffusion * total(sums.diffusion);
-    excess[i] = motion.w + dt * rate;
+    const Real denser = moved * total(sums.approach) + total(sums.squeeze);
+    excess[i] = motion.w + (kind.rest_density + smaller(Real(0), motion.w)) * denser +
+                moved * c.flow.diffusion * total(sums.diffusion);
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
+    contact[i] = contact_pressure(c.flow, kind.rest_density, least(sums.distance));
   }
 
   HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
-                   a = in_lanes(centre.acceleration);
+                   f = in_lanes(centre.by_pressure);
+    const Lanes half = Real(0.5) * moved;
     const Offset first = c.fluid_list.row(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
       const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
-      const QuadLanes there = gather(c.fluid.place, j);
-      const LaneVec3 d = box.separation(x, xyz(there));
+      const QuadLanes there = gather(c.fluid.place, j), other = gather(c.fluid.motion, j);
+      const LaneVec3 slip = v - xyz(other), d = box.separation(x, xyz(there)) - half * slip;
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
-      const QuadLanes other = gather(c.fluid.motion, j);
       const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
-      const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
-      sums.divergence += share;
-      const LaneVec3 both = a + xyz(gather(c.fluid.by_pressure, j));
-      sums.diffusion -= weight * ((other.w - centre.excess) - (Real(0.5) * centre.slope) * dot(both, d));
-      sums.shear -= share * approach / (r2 + c.flow.softening);
+      const Lanes approach = dot(slip, d), share = weight * approach;
+      sums.approach += share;
+      const Lanes smooth = (Real(0.5) * inverse_stiffness) * dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
+      sums.diffusion -= weight * ((other.w - centre.excess) - smooth);
+      sums.shear -= own_side(i, j) * share * approach / (r2 + c.flow.softening);
     }
+  }
+
+  // Of the square of the pair's strain rate.
+  HOST_DEVICE Lanes own_side(Index i, const Index* j) const {
+    if (c.fluids.size == 1) return Real(1);
+    const Lanes own = c.fluid.state[i].y, other = gather(c.fluid.state, j).y;
+    return select(same(c.fluid.fluid, j, c.fluid.fluid[i]), Lanes(1),
+                  square(Real(2) * other / (own + other)));
   }
 
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
-                   hydrostatic = in_lanes(centre.slope * c.flow.gravity);
+                   travelled = in_lanes(moved * centre.velocity),
+                   hydrostatic = in_lanes(c.flow.gravity);
+    const Lanes half = Real(0.5), slope = centre.rest_density * inverse_stiffness;
+    const bool walls_move = c.wall.moved.size > 0;
     const Offset first = c.wall_list.row(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
       const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
-      const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j)));
+      LaneVec3 change = travelled, falls = hydrostatic;
+      QuadLanes other = gather(c.wall.velocity, j);
+      if (walls_move) {
+        const LaneVec3 gain = xyz(gather(c.wall.acceleration, j));
+        change = change - xyz(gather(c.wall.moved, j));
+        falls = falls - gain;
+        // The fluid still has the velocity of the last step.
+        other.x -= Lanes(moved) * gain.x, other.y -= Lanes(moved) * gain.y, other.z -= Lanes(moved) * gain.z;
+      }
+      const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j))) - half * change;
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
-      const QuadLanes other = gather(c.wall.velocity, j);
       const Lanes weight = select(near, c.flow.wall_volume * smoothing.gradient(root(r2)), Lanes(0));
-      const Lanes approach = dot(v - xyz(other), d), share = weight * approach;
-      sums.divergence += share;
-      // The fluid still has the velocity of the last step; so must the wall, that they keep their distance.
-      Lanes rest = dot(hydrostatic, d);
-      if (c.wall.acceleration.size > 0) {
-        const Lanes moved = dot(xyz(gather(c.wall.acceleration, j)), d);
-        sums.divergence += weight * (Lanes(dt) * moved);
-        rest -= centre.slope * moved;
-      }
+      sums.squeeze += weight * dot(change, d);
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
-      const Lanes difference = pressure / c.flow.sound_speed_squared - centre.excess;
-      sums.diffusion -= select(pressure > -wall_tension_limits(c, j), weight * (difference + rest), Lanes(0));
+      const Lanes difference = pressure * inverse_stiffness - centre.excess + slope * dot(falls, d);
+      sums.diffusion -= select(pressure > -wall_tension_limits(c, j), weight * difference, Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
+      const WallPairGeometry<Lanes, QuadLanes> now{d + half * change, pair.normal, pair.back};
+      sums.distance = smaller(sums.distance, select(near, distance_before(now, c.flow.spacing), sums.distance));
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
-      const Lanes dissipated = Real(2) * stick * share * approach / (r2 + c.flow.softening);
+      const Lanes dissipated =
+          Real(2) * stick * weight * square(dot(v - xyz(other), d)) / (r2 + c.flow.softening);
       sums.shear -= select(other.w < Lanes(0), Lanes(0), dissipated);
     }
   }
@@ -110,25 +130,27 @@ struct StateFromDensity {
 
   HOST_DEVICE void operator()(Index i) const {
     const FluidConstants& f = fluids[fluid[i]];
-    const Real density = f.rest_density + excess[i];
     const Real p = larger(flow.sound_speed_squared * excess[i], -flow.tension_limit);
+    const Real volume = f.volume(excess[i]);
     motion[i].w = excess[i];
-    place[i].w = f.mass / density;
+    place[i].w = volume;
     pressure[i] = p;
-    state[i] = {p / square(density), viscosity(f.rheology, shear_rate[i]), f.mass / density, f.mass};
+    state[i] = {p, viscosity(f.rheology, shear_rate[i]), volume, f.mass};
   }
 };
 
 }  // namespace
 
 void update_density(Context& context, const PairContext& c, FluidArrays& fluid, Buffer<Real>& scratch,
-                    Real dt) {
+                    Real moved) {
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
   scratch.resize(fluid.count);
   auto sweep = [&](auto box) {
     launch(
         context, "density and shear rate", fluid.count,
-        DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, dt, scratch.span(), fluid.shear_rate.span()});
+        DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, moved, 1 / c.flow.sound_speed_squared,
+                                             scratch.span(), fluid.shear_rate.span(),
+                                             fluid.contact.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
   launch(

@@ -42,6 +42,16 @@ struct ElasticEnergy {
   }
 };
 
+struct PressureEnergy {
+  Span<const FluidConstants> fluids;
+  Span<const std::uint8_t> kind;
+  Span<const Real> pressure;
+  HOST_DEVICE double operator()(Index i) const {
+    const FluidConstants& f = fluids[kind[i]];
+    return static_cast<double>(magnitude(pressure[i]) * f.mass / f.rest_density);
+  }
+};
+
 struct Momentum {
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> kind;
@@ -102,15 +112,6 @@ struct Lead {
   HOST_DEVICE Real operator()(Index i) const { return static_cast<Real>(sign * position[i][axis]); }
 };
 
-struct Dissipation {
-  Span<const Quad> state;
-  Span<const Real> rate;
-  HOST_DEVICE double operator()(Index i) const {
-    return static_cast<double>(state[i].z) * static_cast<double>(state[i].y) *
-           square(static_cast<double>(rate[i]));
-  }
-};
-
 struct CountWithinSupport {
   PairContext c;
   HOST_DEVICE double count(Index i, const ListView& list, Span<const Quad> place) const {
@@ -138,13 +139,14 @@ struct PairOfTerms {
   }
 };
 
-template <class A, class B, class C>
-struct ThreeTerms {
-  static constexpr int terms = 3;
+template <class A, class B, class C, class D>
+struct FourTerms {
+  static constexpr int terms = 4;
   A a;
   B b;
   C c;
-  HOST_DEVICE Terms<3> operator()(Index i) const { return {{a(i), b(i), c(i)}}; }
+  D d;
+  HOST_DEVICE Terms<4> operator()(Index i) const { return {{a(i), b(i), c(i), d(i)}}; }
 };
 
 FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& front, Vec3d origin,
@@ -208,21 +210,18 @@ Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstant
       c, scratch, n, PairOfTerms<SpeedSquared, Compression>{{motion}, {fluids, kind, motion, 1}});
   const auto energy = reduce_terms<AddUp>(
       c, scratch, n,
-      ThreeTerms<KineticEnergy, PotentialEnergy, ElasticEnergy>{
+      FourTerms<KineticEnergy, PotentialEnergy, ElasticEnergy, PressureEnergy>{
           {fluids, kind, motion},
           potential,
-          {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit}});
+          {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit},
+          {fluids, kind, f.pressure.span()}});
   Vitals v;
   v.max_speed = std::sqrt(most.value[0]);
   v.max_compression = most.value[1];
   v.kinetic_energy = energy.value[0];
-  v.stored_energy = energy.value[1] + energy.value[2];
+  v.elastic_energy = energy.value[2], v.stored_energy = energy.value[1] + v.elastic_energy;
+  v.pressure_energy = energy.value[3];
   return v;
-}
-
-void launch_dissipation(Context& c, const FluidArrays& f, double* power) {
-  const OneTerm<Dissipation> body{{f.state.span(), f.shear_rate.span()}};
-  launch_reduction<AddUp>(c, "dissipation", f.count, body, KeepTerms<1>{power});
 }
 
 double mean_neighbours(Context& context, const PairContext& c, DiagnosticScratch& scratch) {

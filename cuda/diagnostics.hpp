@@ -24,12 +24,11 @@ struct Vitals {
   double max_compression = 0;  // (rho - rho0)/rho0
   double kinetic_energy = 0;   // [J]
   double stored_energy = 0;    // [J] potential, from the lowest point of the domain, and elastic
+  double elastic_energy = 0;   // [J]
+  double pressure_energy = 0;  // [J] sum of |p| m/rho0
 };
 Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
                       DiagnosticScratch&);
-
-// Power that viscosity dissipates now [W]: sum_i V_i eta_i gamma_i^2. Leaves it in `power`, on the device.
-void launch_dissipation(Context&, const FluidArrays&, double* power);
 
 // Mean number of fluid and wall particles within the support radius of a fluid particle, itself not counted.
 double mean_neighbours(Context&, const PairContext&, DiagnosticScratch&);

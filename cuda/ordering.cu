@@ -178,7 +178,7 @@ void Ordering::sort(WallArrays& w) {
   reorder(w.normal, spare_quad_, n);
   reorder(w.back, spare_quad_, n);
   reorder(w.velocity, spare_quad_, n);
-  if (w.acceleration.size() > 0) reorder(w.acceleration, spare_quad_, n);
+  if (w.acceleration.size() > 0) reorder(w.acceleration, spare_quad_, n), reorder(w.moved, spare_quad_, n);
   reorder(w.id, spare_index_, n);
   reorder(w.pressure, spare_real_, n);
   w.resize(left);

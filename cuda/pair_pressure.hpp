@@ -1,4 +1,5 @@
-// Pressure part of a pair of particles.
+// Pressure part of a pair of particles: p_i + p_j + pairing_ij [Pa]. Times V_i V_j it is what goes with the
+// continuity equation, which counts volumes, so that fluids of different density balance.
 #pragma once
 
 #include "backend/lanes.hpp"
@@ -6,21 +7,19 @@
 
 namespace slagflow {
 
-// p_i/rho_i^2 + p_j/rho_j^2 + pairing_ij of two particles at distance r; both signs of pressure keep a pair
-// apart when it is closer than the spacing. T: Real or Lanes.
+// pairing_ij: both signs of pressure keep a pair apart when it is closer than the spacing. T: Real or Lanes.
 template <class Smoothing, class T>
-HOST_DEVICE T pair_pressure(const FlowConstants& flow, const Smoothing& smoothing, T own, T other, T r) {
-  const T sum = own + other;
+HOST_DEVICE T pairing_pressure(const FlowConstants& flow, const Smoothing& smoothing, T own, T other, T r) {
   const auto close = r < T(flow.spacing);
-  if (!bits(close)) return sum;
+  if (!bits(close)) return T(0);
   const T ratio = smoothing.value(r) * flow.pairing_reference;
   const T apart = flow.anti_pairing * (square(square(ratio)) - Real(1));
-  return sum + select(close, apart * (magnitude(own) + magnitude(other)), T(0));
+  return select(close, apart * (magnitude(own) + magnitude(other)), T(0));
 }
 
-// p/rho^2 of a wall particle of the given pressure, to a fluid of the given density at rest.
-HOST_DEVICE inline Real wall_pressure_share(const FlowConstants& flow, Real pressure, Real rest_density) {
-  return pressure / square(rest_density + pressure / flow.sound_speed_squared);
+template <class Smoothing, class T>
+HOST_DEVICE T pair_pressure(const FlowConstants& flow, const Smoothing& smoothing, T own, T other, T r) {
+  return own + other + pairing_pressure(flow, smoothing, own, other, r);
 }
 
 }  // namespace slagflow

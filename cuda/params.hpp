@@ -48,10 +48,18 @@ HOST_DEVICE void add_coupling(PairCoupling coupling, T weight, Vector3<T> d, Sym
   else
     block.add_diagonal(weight * dot(d, d));
 }
+
 struct FluidConstants {
   Real rest_density;  // [kg/m^3]
   Real mass;          // of a particle [kg]
   Rheology rheology;
+
+  // Of a particle whose density is above that of rest by `excess`. Compressed particles stand as far apart as
+  // the lattice of the start, so their volume is that of the lattice site; those thinned out take more, up to
+  // twice as much: the pressure of a neighbour acts on a particle in proportion to its volume.
+  HOST_DEVICE Real volume(Real excess) const {
+    return mass / (rest_density + smaller(Real(0), larger(excess, Real(-0.5) * rest_density)));
+  }
 };
 
 struct FlowConstants {

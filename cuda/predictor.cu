@@ -31,7 +31,7 @@ struct PredictAndAssemble {
     const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
     const Real factor = -implicit_dt * c.flow.operator_factor;
-    LaneVec3 acceleration, diagonal;
+    LaneVec3 pressure, pairing, diagonal;
     const Offset first = c.fluid_list.row(i);
     const Index entries = c.fluid_list.length[i];
     for (Index k = 0; k < entries; k += lane_count) {
@@ -43,29 +43,36 @@ struct PredictAndAssemble {
       Lanes weight = 0;
       if (bits(near)) {
         const QuadLanes other = gather(c.fluid.state, j);
-        const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
-        acceleration -= (other.w * f * pair_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
+        const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0)), share = other.z * f;
+        pressure -= (share * (own.x + other.x)) * d;
+        if (bits(near & (r < Lanes(c.flow.spacing))))
+          pairing -= (share * pairing_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
-        weight = (factor * (own.z * other.z) * f) * (mean + c.flow.augmentation) / (r2 + c.flow.softening);
+        weight = (factor * own.z * share) * (mean + c.flow.augmentation) / (r2 + c.flow.softening);
         diagonal += pair_diagonal(weight, d);
       }
       store_lanes(&out.weight[at], weight);
     }
-    walls(i, x, own, total(acceleration), Vec3{own.w, own.w, own.w} + total(diagonal));
+    Push push{own.z * total(pressure), own.z * total(pairing)};
+    WallPart part = walls(i, x, own, push);
+    finish(i, own, push, part, total(diagonal));
   }
 
-  HOST_DEVICE Lanes own_share(Index i, Real towards_fluid, const Index* walls) const {
-    if (!walls_have_tension_limits(c)) return towards_fluid;
-    return share_towards_walls(c, i, wall_tension_limits(c, walls));
-  }
+  // Forces by pressure [N]: what the elastic energy of the fluid balances, and the rest, by pairing and by the
+  // pressure of walls.
+  struct Push {
+    Vec3 elastic, given;
+  };
+  struct WallPart {
+    Symmetric3 block;
+    Vec3 drag;
+  };
 
-  // `acceleration`: by the pressure of the fluid.
-  HOST_DEVICE void walls(Index i, Vec3 x, Quad own, Vec3 acceleration, Vec3 diagonal) const {
-    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
+  HOST_DEVICE WallPart walls(Index i, Vec3 x, Quad own, Push& push) const {
     const Real factor =
         implicit_dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
-    LaneVec3 push, drag;
+    LaneVec3 elastic, given, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);
     const Index entries = c.wall_list.length[i];
@@ -76,10 +83,10 @@ struct PredictAndAssemble {
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
       if (!bits(near)) continue;
       const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
-      const Lanes pressure = gather(c.wall.pressure, j);
-      const Lanes density = rest_density + pressure / c.flow.sound_speed_squared;
-      push +=
-          (f * pair_pressure(c.flow, smoothing, own_share(i, own.x, j), pressure / square(density), r)) * d;
+      const WallPressures<Lanes> p = towards_walls(c, i, wall_tension_limits(c, j));
+      elastic -= (f * p.elastic) * d;
+      given -=
+          (f * (pair_pressure(c.flow, smoothing, p.fluid, gather(c.wall.pressure, j), r) - p.elastic)) * d;
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
@@ -88,17 +95,23 @@ struct PredictAndAssemble {
       add_coupling(c.flow.coupling, sticking, d, coupled);
       drag += couple(c.flow.coupling, sticking, d, xyz(motion));
     }
-    acceleration -= own.w * total(push);
-    out.by_pressure[i] = quad(acceleration, 0);
-    acceleration += c.flow.gravity + c.flow.body_acceleration;
+    const Real volumes = own.z * c.flow.wall_volume;
+    push.elastic += volumes * total(elastic), push.given += volumes * total(given);
+    return {total(coupled), total(drag)};
+  }
+
+  HOST_DEVICE void finish(Index i, Quad own, const Push& push, const WallPart& wall, Vec3 diagonal) const {
+    const Vec3 by_pressure = (1 / own.w) * (push.elastic + push.given);
+    Vec3 acceleration = by_pressure + c.flow.gravity + c.flow.body_acceleration;
     if (c.capillary.size > 0) acceleration += xyz(c.capillary[i]);
-    const Symmetric3 block = total(coupled);
-    const Vec3 predicted = xyz(c.fluid.motion[i]) + dt * acceleration;
-    diagonal += Vec3{block.xx, block.yy, block.zz};
+    const Vec3 old = xyz(c.fluid.motion[i]), predicted = old + dt * acceleration;
+    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
+    out.by_pressure[i] = quad(rest_density * by_pressure, dt / 2 * dot(push.given, old + predicted));
     out.predicted[i] = quad(predicted, 0);
-    out.wall[i] = block;
-    out.diagonal[i] = quad(diagonal, own.w);
-    out.right_hand_side[i] = quad(own.w * predicted + total(drag), 0);
+    out.wall[i] = wall.block;
+    out.diagonal[i] =
+        quad(Vec3{own.w, own.w, own.w} + diagonal + Vec3{wall.block.xx, wall.block.yy, wall.block.zz}, own.w);
+    out.right_hand_side[i] = quad(own.w * predicted + wall.drag, 0);
   }
 };
 

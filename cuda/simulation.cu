@@ -77,14 +77,16 @@ void Simulation::State::upload_fluid() {
   const auto constants = fluid_constants(setup);
   const double c2 = setup.numerics.sound_speed * setup.numerics.sound_speed;
   std::vector<Vec3d> position(n);
-  std::vector<Quad> place(n), motion(n);
+  std::vector<Quad> place(n), motion(n), by_pressure(n), state(n);
   std::vector<Index> id(n);
   std::vector<std::int64_t> count(setup.fluids.size());
   for (std::size_t i = 0; i < n; ++i) {
     const auto& f = constants[p.fluid[i]];
     const auto excess = static_cast<Real>(p.pressure[i] / c2);
     position[i] = p.position[i] - setup.domain.lower;
-    place[i] = quad(to_real(position[i]), f.mass / (f.rest_density + excess));
+    place[i] = quad(to_real(position[i]), f.volume(excess));
+    by_pressure[i] = quad(-f.rest_density * to_real(setup.gravity), 0);
+    state[i] = {static_cast<Real>(p.pressure[i]), viscosity(f.rheology, 0), place[i].w, f.mass};
     motion[i] = quad(to_real(p.velocity[i]), excess);
     id[i] = static_cast<Index>(i);
     ++count[p.fluid[i]];
@@ -98,8 +100,8 @@ void Simulation::State::upload_fluid() {
       fluid.id.upload(id);
   fluid.fluid.upload(p.fluid);
   fluid.increment.upload(std::vector<Quad>(n)), fluid.last_increment.upload(std::vector<Quad>(n));
-  fluid.by_pressure.upload(std::vector<Quad>(n, quad(to_real(-1 * setup.gravity), 0)));
-  fluid.state.upload(std::vector<Quad>(n));
+  fluid.by_pressure.upload(by_pressure);
+  fluid.state.upload(state);
   fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
   fluid.shear_rate.upload(std::vector<Real>(n));
   setup.particles = {};  // from here on the device has them
@@ -107,7 +109,7 @@ void Simulation::State::upload_fluid() {
 
 void Simulation::State::upload_walls() {
   walls.upload(setup, wall);
-  walls.place(time, dt, wall);
+  walls.place({time, dt, 0}, wall);
   if (knows_wall_forces()) wall_forces.start(setup.walls.body);
   setup.walls.normal = setup.walls.back_normal = {};
   setup.walls.depth = setup.walls.back_depth = {};
@@ -144,7 +146,7 @@ void Simulation::State::build_lists() {
 // The walls as they were when the lists were built, in the same order.
 void Simulation::State::restore_walls() {
   if (!walls.any()) return;
-  walls.place(list_time, dt, wall);
+  walls.place({list_time, dt, 0}, wall);
   ordering.sort(wall);
   wall_list_places.copy_from(wall.place);
 }
@@ -184,13 +186,20 @@ PairContext Simulation::State::pairs() const {
   return c;
 }
 
+WallWork Simulation::State::wall_work() {
+  return knows_wall_forces() ? wall_forces.work() : WallWork{};
+}
+
 void Simulation::State::look() {
   Section timer(context, "watch");
   std::int64_t left = 0;
   for (const auto& by_face : departed)
     for (const std::int64_t count : by_face) left += count;
-  const double work = (knows_wall_forces() ? wall_forces.work() : 0) + capillary_work;
-  watch.look(fluid, fluids.span(), {time, dt, dissipated, work, steps, left}, diagnostics);
+  const WallWork work = wall_work();
+  watch.look(fluid, fluids.span(),
+             {time, dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
+              last ? last->given : 0, steps, left},
+             diagnostics);
 }
 
 // Names the first particle that is not a number: by its motion, or else by its density, which follows within
@@ -225,9 +234,9 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 // What the watch remembers stays as it is: a look out of turn must not change what it finds later.
 void Simulation::require_sound() {
   State& s = *state_;
-  const double remembered = s.watch.lowest_energy;
+  const double lowest = s.watch.lowest_energy, most_pressure = s.watch.most_pressure_energy;
   s.look();
-  s.watch.lowest_energy = remembered;
+  s.watch.lowest_energy = lowest, s.watch.most_pressure_energy = most_pressure;
 }
 
 double Simulation::time() const { return state_->time; }

@@ -100,7 +100,7 @@ struct Totals {
   double max_speed = 0;                    // [m/s]
   double kinetic_energy = 0;               // [J]
   double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
-  double dissipated_energy = 0;            // [J], by viscosity since the start, the last step left out
+  double dissipated_energy = 0;            // [J], by viscosity since the start
   double max_density_error = 0;     // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
   double min_density_ratio = 1;     // smallest rho/rho0
   Vec3d momentum;                   // [kg m/s]

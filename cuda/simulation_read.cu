@@ -24,7 +24,7 @@ Totals Simulation::totals() {
   Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
   t.particles = s.fluid.count;
   t.mass_start = s.start_mass;
-  t.dissipated_energy = s.dissipated;
+  t.dissipated_energy = s.taken + s.wall_work().viscous;
   for (std::size_t kind = 0; kind < s.departed.size(); ++kind)
     for (std::size_t face = 0; face < faces; ++face) {
       t.departed[face] += s.departed[kind][face];

@@ -12,10 +12,10 @@ namespace {
 
 // Numbers that are not particle arrays.
 struct SavedNumbers {
-  double time, dt, full_dt, density_ahead, displacement, dissipated, capillary_work, list_time;
+  double time, dt, full_dt, last_dt, displacement, taken, given, capillary_work, list_time;
   std::int64_t steps, builds;
   std::int64_t solver_steps, solver_iterations, solver_retried, yield_iterations, yield_unconverged;
-  double worst_residual, residual, velocity_error, lowest_energy;
+  double worst_residual, residual, velocity_error, lowest_energy, most_pressure_energy;
   std::int32_t max_iterations, iterations, converged, real_size;
 };
 
@@ -86,9 +86,9 @@ void visit_arrays(Visitor& v, State& s) {
 // is false in a checkpoint shows as a state that cannot go on.
 void require_possible(const SavedNumbers& v) {
   const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
-                        v.full_dt > 0 && std::isfinite(v.full_dt) && std::isfinite(v.density_ahead) &&
+                        v.full_dt > 0 && std::isfinite(v.full_dt) && v.last_dt >= 0 && std::isfinite(v.last_dt) &&
                         v.list_time >= 0 && v.list_time <= v.time && std::isfinite(v.displacement) &&
-                        std::isfinite(v.dissipated) && std::isfinite(v.capillary_work) && v.steps >= 0 &&
+                        std::isfinite(v.taken) && std::isfinite(v.given) && std::isfinite(v.capillary_work) && v.steps >= 0 &&
                         v.builds >= 0 && v.solver_steps >= 0;
   if (!possible) throw Error("checkpoint: its numbers are not those of a run");
 }
@@ -121,9 +121,10 @@ SavedState Simulation::save() const {
   std::vector<SavedNumbers> numbers{{s.time,
                                      s.dt,
                                      s.full_dt,
-                                     s.density_ahead,
+                                     s.last_dt,
                                      s.displacement,
-                                     s.dissipated,
+                                     s.taken,
+                                     s.given,
                                      s.capillary_work,
                                      s.list_time,
                                      s.steps,
@@ -137,6 +138,7 @@ SavedState Simulation::save() const {
                                      s.report.residual,
                                      s.report.velocity_error,
                                      s.watch.lowest_energy,
+                                     s.watch.most_pressure_energy,
                                      s.solver.max_iterations,
                                      s.report.iterations,
                                      s.report.converged ? 1 : 0,
@@ -155,8 +157,8 @@ void Simulation::restore(const SavedState& saved) {
   const std::size_t kinds = s.departed.size();
   const SavedNumbers& v = numbers[0];
   require_possible(v);
-  s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.density_ahead = v.density_ahead;
-  s.displacement = v.displacement, s.dissipated = v.dissipated;
+  s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.last_dt = v.last_dt;
+  s.displacement = v.displacement, s.taken = v.taken, s.given = v.given;
   s.capillary_work = v.capillary_work, s.list_time = v.list_time;
   s.restore_walls();
   const Offset walls = s.wall.pressure.size(), impulses = s.wall_forces.impulses().size();
@@ -178,7 +180,7 @@ void Simulation::restore(const SavedState& saved) {
   s.solver = {v.solver_steps,     v.solver_iterations, v.max_iterations, v.worst_residual,
               v.yield_iterations, v.yield_unconverged, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
-  s.watch.lowest_energy = v.lowest_energy;
+  s.watch.lowest_energy = v.lowest_energy, s.watch.most_pressure_energy = v.most_pressure_energy;
   s.last.reset();
   s.rebuild_lists_as_saved();
 }

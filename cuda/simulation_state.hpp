@@ -48,8 +48,10 @@ struct Simulation::State {
   Watch watch;
   PlaneCounters planes;
 
-  double density_ahead = 0;  // [s] by which the density is ahead of the particles, after a step made shorter
-  double time = 0, dt = 0, full_dt = 0, displacement = 0, dissipated = 0, capillary_work = 0;
+  double time = 0, dt = 0, full_dt = 0, displacement = 0, capillary_work = 0;
+  double last_dt = 0;  // [s] that the last step took; 0 before the first
+  double taken = 0;    // [J] by viscous forces from the fluid: what they dissipate less the work of walls
+  double given = 0;    // [J] to the fluid by pairing and the pressure of walls
   std::int64_t steps = 0, builds = 0;
   std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
   double start_mass = 0;
@@ -86,6 +88,7 @@ struct Simulation::State {
   bool knows_wall_forces() const;
   void add_wall_forces();
   void shift();
+  WallWork wall_work();
   void look();
   void check_finite();
   void check_departure() const;

@@ -63,8 +63,7 @@ void Simulation::State::solve(const StepRecord& begun) {
     if (halving == most_halvings) give_up(result);
     ++solver.retried;
     dt /= 2;
-    density_ahead += dt;
-    walls.place(time, dt, wall);
+    walls.place({time, dt, last_dt}, wall);
     viscous.forget(fluid);
     solve_step = viscous_step();
     viscous.begin(pairs(), row_cells(), solve_step, fluid);
@@ -80,6 +79,7 @@ void Simulation::State::launch_move() {
   shift();
   StepRecord* record = viscous.record();
   surface_tension.launch_power(fluid, viscous.velocity(), record);
+  viscous.launch_energy(fluid);
   Section timer(context, "advance");
   advance_particles(context, fluid, {viscous.velocity(), dt}, list_places, record);
   if (!walls.any())
@@ -89,7 +89,7 @@ void Simulation::State::launch_move() {
 
 // What is recorded may not take memory.
 void Simulation::State::reserve_step() {
-  constexpr int most_terms = 4;
+  constexpr int most_terms = 5;
   const CellGrid& grid = ordering.fluid_sources(fluid).grid;
   reserve_reductions(context, larger(fluid.count, grid.cells()), most_terms);
   surface_tension.reserve(fluid.count);
@@ -102,9 +102,8 @@ void Simulation::State::launch_step() {
   surface_tension.update(pairs(), wall.id.span());
   {
     Section timer(context, "density and shear rate");
-    update_density(context, pairs(), fluid, scratch, static_cast<Real>(dt - density_ahead));
+    update_density(context, pairs(), fluid, scratch, static_cast<Real>(last_dt));
   }
-  launch_dissipation(context, fluid, &viscous.record()->dissipation);
   {
     Section timer(context, "wall pressure");
     extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
@@ -121,8 +120,7 @@ StepRecord Simulation::State::solve_and_move() {
   if (exact_yield())  // most of whose launches come after the first look
     launch_step();
   else
-    step_graph.run({dt, density_ahead, solve_step.kick}, [this] { launch_step(); });
-  density_ahead = 0;
+    step_graph.run({dt, last_dt, solve_step.kick}, [this] { launch_step(); });
   const StepRecord begun = viscous.read_posted();
   solve(begun);
   if (begun.solve.converged) return begun;
@@ -166,8 +164,7 @@ void Simulation::State::shift() {
 
 void Simulation::step() {
   State& s = *state_;
-  const double last_dt = s.dt;
-  s.walls.place(s.time, s.dt, s.wall);
+  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);
   if (!s.lists_hold()) {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
@@ -176,16 +173,16 @@ void Simulation::step() {
         smaller(stable_time_step(s.setup), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
   s.choose_time_step();
-  s.walls.place(s.time, s.dt, s.wall);  // with the velocities of this step
+  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);  // with the velocities of this step
   if (s.fluid.count > 0) {
     s.last = s.solve_and_move();
-    // What the last step dissipated: the viscous forces acted on the velocities that it ended with.
-    if (s.steps > 0) s.dissipated += last_dt * s.last->dissipation;
+    s.taken += s.last->taken, s.given += s.last->given;
     s.displacement = std::sqrt(s.last->displacement_squared);
     s.capillary_work += s.dt * s.last->capillary_power;
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
   s.time += s.dt;
+  s.last_dt = s.dt;
   ++s.steps;
   if (s.steps % s.setup.limits.interval == 0) s.look();
 }

@@ -40,6 +40,10 @@ class ViscousStep {
   StepRecord read_posted() { return work_.read_posted(context_); }
   SolveResult finish(const StepRecord& now, const PairContext&, const RowCells&, const Step&, FluidArrays&);
   StepRecord* record() { return work_.record.span().data; }
+  // Leaves in the record what the viscous forces of the step take from the fluid as it moves by u dt,
+  // -sum m (u - u*).u, which is what they dissipate less the work of moving walls, and what pairing and walls
+  // give it [J].
+  void launch_energy(const FluidArrays&);
 
   // Sets the first guess to nothing.
   void forget(FluidArrays&);

@@ -7,7 +7,10 @@
 namespace slagflow {
 
 struct WatchMoment {
-  double time, time_step, dissipated, work;  // work: done by moving walls and surface tension [J]
+  double time, time_step;  // [s]
+  // [J] dissipated; done by moving walls and surface tension; given by pairing and the pressure of walls,
+  // which the elastic energy knows nothing of, and of that in the last step
+  double dissipated, work, given, just_given;
   std::int64_t step, departed;
 };
 
@@ -22,11 +25,13 @@ class Watch {
   // Throws Error that names the limit, its value, the particle concerned with its state, and what to try.
   void look(const FluidArrays&, Span<const FluidConstants>, const WatchMoment&, DiagnosticScratch&);
 
-  // Lowest total energy seen so far [J]; kept in checkpoints.
-  double lowest_energy = 1e300;
+  // Lowest total energy seen so far, and the most of |p| V [J]; kept in checkpoints.
+  double lowest_energy = 1e300, most_pressure_energy = 0;
 
  private:
   void check_energy(const Vitals&, const WatchMoment&);
+  void check_given(const Vitals&, const WatchMoment&, double scale);
+  double stiff_enough(double compression) const;
   [[noreturn]] void fail(const WatchMoment&, const std::string& what, const std::string& advice) const;
   [[noreturn]] void fail_at_worst(const FluidArrays&, const WatchMoment&, const std::string& what,
                                   double (*badness)(Quad motion), const std::string& advice) const;

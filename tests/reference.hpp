@@ -54,9 +54,10 @@ inline long double viscosity(const Fluid& f, long double shear_rate) {
 
 struct Particle {
   Vec x, v;
-  Vec by_pressure;    // acceleration in the last step
+  Vec by_pressure;    // force per volume in the last step
   double excess = 0;  // density - rest density
   double volume = 0, mass = 0, pressure = 0, viscosity = 0;
+  double contact = 0;  // pressure towards walls, at least
   int fluid = 0;
 };
 
@@ -67,7 +68,7 @@ struct Wall {
   double back_depth = 0;  // below the opposite face of a thin plate; 0: there is none
   bool sticks = true;
   double slip_length = 0;  // Navier's, of a wall that sticks in part
-  Vec acceleration;
+  Vec acceleration, moved;    // moved: in the last step
   double tension_limit = -1;  // < 0: the world's
 };
 
@@ -83,11 +84,14 @@ struct World {
 
   const Fluid& kind(const Particle& p) const { return fluids[static_cast<std::size_t>(p.fluid)]; }
   double density(const Particle& p) const { return kind(p).rest_density + p.excess; }
+  // Compressed particles keep the volume of the lattice; thin ones take up to twice as much.
+  double volume(const Particle& p) const {
+    return p.mass / std::min(kind(p).rest_density, std::max(density(p), kind(p).rest_density / 2));
+  }
   double limit(const Wall& wall) const { return wall.tension_limit < 0 ? tension_limit : wall.tension_limit; }
   // Of a particle, towards a wall with a limit of its own.
   double pressure_towards(const Wall& wall, const Particle& p) const {
-    return wall.tension_limit < 0 ? p.pressure
-                                  : std::max(sound_speed * sound_speed * p.excess, -wall.tension_limit);
+    return std::max(sound_speed * sound_speed * p.excess, -limit(wall));
   }
   double wall_volume() const { return std::pow(spacing, dimensions); }
   double softening() const { return 1e-6 * support * support; }
@@ -132,29 +136,33 @@ inline double slope_over_distance(const World& w, double r) {
   return r > 0 ? lucy_slope(r, w.support, w.dimensions) / r : 0;
 }
 
-// d rho_i/dt: continuity and density diffusion (numerics.md, section 0). Walls take part with the density
-// that their pressure has in the fluid's equation of state. Between fluids, what diffuses is the excess over
-// each one's rest density: otherwise their interface would.
-inline Sum density_rate(const World& w, std::size_t i) {
+// Change of the density of particle i over a step of dt that has brought all to where they are: continuity
+// and density diffusion (numerics.md, section 0), with the pairs where they were half-way. Walls take part with
+// the density that their pressure has in the fluid's equation of state. Between fluids, what diffuses is the
+// excess over each one's rest density: otherwise their interface would.
+inline Sum density_change(const World& w, std::size_t i, double dt) {
   const Particle& p = w.particles[i];
   const double c2 = w.sound_speed * w.sound_speed, rest = w.kind(p).rest_density;
   const double strength = 2 * w.diffusion * (w.support / 2) * w.sound_speed;
+  const double density = std::min(rest, w.density(p));
   Sum sum;
-  // `balanced`: minus the acceleration by pressure
-  auto pair = [&](Vec d, double volume, Vec velocity, double excess, Vec balanced) {
-    const double f = slope_over_distance(w, length(d));
-    const Vec slip = p.v - velocity;
-    sum.add(w.density(p) * volume * f * dot(slip, d), w.density(p) * volume * -f * length(slip) * length(d));
-    const double smooth = rest * dot(balanced, -1 * d) / c2;
-    sum.add(strength * volume * -f * (excess - p.excess - smooth),
-            strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
+  // `moved`: what the step has added to d; `balanced`: minus the force per volume by pressure
+  auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced) {
+    const Vec half_way = d - 0.5 * moved;
+    if (length(half_way) >= w.support) return;
+    const double f = slope_over_distance(w, length(half_way));
+    sum.add(density * volume * f * dot(moved, half_way), density * volume * -f * length(moved) * length(d));
+    const double smooth = dot(balanced, -1 * half_way) / c2;
+    sum.add(dt * strength * volume * -f * (excess - p.excess - smooth),
+            dt * strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
   };
   for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
-    pair(d, j.volume, j.v, j.excess, -0.5 * (p.by_pressure + j.by_pressure));
+    pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure));
   });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
     const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
-    pair(d, w.wall_volume(), j.v, cut ? p.excess : j.pressure / c2, cut ? Vec{} : w.gravity - j.acceleration);
+    pair(d, w.wall_volume(), dt * p.v - j.moved, cut ? p.excess : j.pressure / c2,
+         cut ? Vec{} : rest * (w.gravity - j.acceleration));
   });
   return sum;
 }
@@ -170,20 +178,46 @@ inline double no_slip_factor(const World& w, const Wall& wall, Vec d) {
   return before_back ? factor(wall.back_normal, wall.back_depth) : factor(wall.normal, wall.depth);
 }
 
-// gamma_i^2
-inline Sum shear_rate_squared(const World& w, std::size_t i) {
+// gamma_i^2 of the step of dt that has brought all to where they are. Of a pair of two fluids each has the share
+// of the strain that its viscosity gives it under a common stress.
+inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
   const Particle& p = w.particles[i];
   Sum sum;
-  auto pair = [&](Vec d, double volume, Vec velocity) {
-    const double r2 = dot(d, d), weight = -slope_over_distance(w, length(d)) * volume / (r2 + w.softening());
+  auto pair = [&](Vec d, double volume, Vec velocity, Vec moved) {
+    const Vec half_way = d - 0.5 * moved;
+    if (length(half_way) >= w.support) return;
+    const double r2 = dot(half_way, half_way);
+    const double weight = -slope_over_distance(w, length(half_way)) * volume / (r2 + w.softening());
     const double factor = w.correction * (w.dimensions + 2) * weight;
-    sum.add(factor * std::pow(dot(p.v - velocity, d), 2), factor * dot(p.v - velocity, p.v - velocity) * r2);
+    sum.add(factor * std::pow(dot(p.v - velocity, half_way), 2),
+            factor * dot(p.v - velocity, p.v - velocity) * r2);
   };
-  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { pair(d, j.volume, j.v); });
+  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
+    const double share = p.fluid == j.fluid ? 1 : 2 * j.viscosity / (p.viscosity + j.viscosity);
+    pair(d, share * share * j.volume, j.v, dt * (p.v - j.v));
+  });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {  // i carries all that the pair dissipates
-    if (j.sticks) pair(d, 2 * no_slip_factor(w, j, d) * w.wall_volume(), j.v);
+    const Vec half_way = d - 0.5 * (dt * p.v - j.moved);
+    if (j.sticks)
+      pair(d, 2 * no_slip_factor(w, j, half_way) * w.wall_volume(), j.v - dt * j.acceleration,
+           dt * p.v - j.moved);
   });
   return sum;
+}
+
+// Pressure of particle i towards walls for being below a surface: of the nearest part of one, seen from the
+// wall particles that stand behind it.
+inline double contact_pressure(const World& w, std::size_t i) {
+  double distance = 1e30;
+  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
+    const double height = dot(d, j.normal), aside = std::sqrt(std::max(0.0, dot(d, d) - height * height));
+    if (height <= 0 || aside >= 0.75 * w.spacing) return;
+    double from_surface = height - j.depth;
+    if (j.back_depth > 0) from_surface = std::max(from_surface, dot(d, j.back_normal) - j.back_depth);
+    distance = std::min(distance, from_surface);
+  });
+  const Particle& p = w.particles[i];
+  return w.kind(p).rest_density * w.sound_speed * w.sound_speed * std::max(0.0, -distance / w.spacing);
 }
 
 // Pressure that a wall particle takes from the fluid in reach.
@@ -202,25 +236,30 @@ inline Sum wall_pressure(const World& w, const Wall& wall) {
   return {{std::max(sum.value.x / weights, -w.limit(wall)), 0, 0}, sum.size / weights};
 }
 
-// Acceleration by gravity, body force and pressure, with the term that keeps pairs apart.
-inline Sum acceleration(const World& w, std::size_t i) {
+// Acceleration by gravity, body force and pressure, with the term that keeps pairs apart. `given`: the part of
+// it by that term and by the pressure of walls.
+inline Sum acceleration(const World& w, std::size_t i, Vec* given = nullptr) {
   const Particle& p = w.particles[i];
   const double at_spacing = lucy(w.spacing, w.support, w.dimensions);
   Sum sum;
-  auto share = [&](double pressure, const Particle& a) { return pressure / std::pow(w.density(a), 2); };
   sum.add(w.gravity + w.body_acceleration, length(w.gravity) + length(w.body_acceleration));
-  auto pair = [&](Vec d, double mass, double own, double other) {
+  auto pair = [&](Vec d, double volume, double own, double other) {
     const double r = length(d), ratio = lucy(r, w.support, w.dimensions) / at_spacing;
     const double pairing = w.anti_pairing * std::max(0.0, std::pow(ratio, 4) - 1);
     const double sizes = std::fabs(own) + std::fabs(other);
-    const double f = slope_over_distance(w, r);
-    sum.add(-mass * (own + other + pairing * sizes) * f * d, mass * (1 + pairing) * sizes * -f * r);
+    const double volumes = p.volume * volume / p.mass, f = slope_over_distance(w, r);
+    sum.add(-volumes * (own + other + pairing * sizes) * f * d, volumes * (1 + pairing) * sizes * -f * r);
+    return -volumes * pairing * sizes * f * d;
+  };
+  auto give = [&](Vec a) {
+    if (given) *given = *given + a;
   };
   for_fluid_pairs(
-      w, i, [&](const Particle& j, Vec d) { pair(d, j.mass, share(p.pressure, p), share(j.pressure, j)); });
+      w, i, [&](const Particle& j, Vec d) { give(pair(d, j.volume, p.pressure, j.pressure)); });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
-    const double density = w.kind(p).rest_density + j.pressure / (w.sound_speed * w.sound_speed);
-    pair(d, p.mass, share(w.pressure_towards(j, p), p), j.pressure / (density * density));
+    const double elastic = w.pressure_towards(j, p), own = std::max(elastic, p.contact);
+    const double volumes = p.volume * w.wall_volume() / p.mass, f = slope_over_distance(w, length(d));
+    give(pair(d, w.wall_volume(), own, j.pressure) - volumes * (own - elastic + j.pressure) * f * d);
   });
   return sum;
 }

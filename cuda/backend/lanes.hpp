@@ -31,6 +31,7 @@ using LaneMask = bool;
 
 HOST_DEVICE inline Index number_of(unsigned lanes) { return static_cast<Index>(lanes); }
 HOST_DEVICE inline Real total(Real a) { return a; }
+HOST_DEVICE inline Real least(Real a) { return a; }
 HOST_DEVICE inline bool first_lanes(Index n) { return n > 0; }
 HOST_DEVICE inline Real load_lanes(const Real* from) { return *from; }
 HOST_DEVICE inline void store_lanes(Real* to, Real a) { *to = a; }
@@ -141,6 +142,13 @@ inline Real total(Lanes a) {
   Real sum = 0;
   for (int k = 0; k < lane_count / 2; ++k) sum += a.v[k] + a.v[k + lane_count / 2];
   return sum;
+}
+
+// The smallest of the lanes.
+inline Real least(Lanes a) {
+  Real result = a.v[0];
+  for (int k = 1; k < lane_count; ++k) result = a.v[k] < result ? a.v[k] : result;
+  return result;
 }
 
 // Holds in the lanes below n.

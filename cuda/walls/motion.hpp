@@ -62,6 +62,10 @@ struct Rotation {
   Vec3d row[3]{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
   HOST_DEVICE Vec3d operator*(Vec3d v) const { return {dot(row[0], v), dot(row[1], v), dot(row[2], v)}; }
+  // Not a rotation, but what one does less what another does.
+  Rotation operator-(const Rotation& b) const {
+    return {{row[0] - b.row[0], row[1] - b.row[1], row[2] - b.row[2]}};
+  }
 };
 Rotation rotation(Vec3d turn);
 

@@ -10,24 +10,25 @@ namespace {
 HOST_DEVICE Quad turned(const Rotation& r, Quad q) { return quad(to_real(r * to_double(xyz(q))), q.w); }
 
 struct PlaceWall {
+  double inverse_dt;
   Span<const WallPose> poses;
   Span<const std::uint8_t> body;
   Span<const Vec3d> start;
   Span<const Quad> start_normal, start_back, start_velocity;
   Span<const Index> id;
-  Span<Quad> place, normal, back, velocity, acceleration;
+  Span<Quad> place, normal, back, velocity, acceleration, moved;
 
   HOST_DEVICE void operator()(Index i) const {
     const Index k = id[i];
     const WallPose& pose = poses[body[k]];
     if (!pose.moves) return;
-    const Vec3d x = pose.target + pose.turn * (start[k] - pose.center);
-    const Quad n = turned(pose.turn, start_normal[k]);
-    const Quad along = turned(pose.turn, start_velocity[k]);
-    const Vec3d surface = x + static_cast<double>(n.w) * to_double(xyz(n));
-    const Vec3d v = pose.velocity + cross(pose.angular_velocity, surface - pose.target);
+    const Vec3d arm = start[k] - pose.center, x = pose.target + pose.turn * arm;
+    const Quad n = start_normal[k], along = turned(pose.turn, start_velocity[k]);
+    const Vec3d surface = arm + static_cast<double>(n.w) * to_double(xyz(n));
+    const Vec3d v = inverse_dt * (pose.shift_gain + pose.turn_gain * surface);
     place[i] = quad(to_real(x), pose.removed ? Real(1) : Real(0));
-    normal[i] = n;
+    moved[i] = quad(to_real(pose.shift_gained + pose.turn_gained * arm), 0);
+    normal[i] = turned(pose.turn, n);
     back[i] = turned(pose.turn, start_back[k]);
     velocity[i] = quad(to_real(v) + xyz(along), along.w);
     const Vec3d r = x - pose.target, w = pose.angular_velocity;
@@ -98,7 +99,7 @@ void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
   wall.tension_limit.upload(tension_limits(setup));
   body_.upload(w.body);
   if (!any_) return;
-  wall.acceleration.upload(std::vector<Quad>(n));
+  wall.acceleration.upload(std::vector<Quad>(n)), wall.moved.upload(std::vector<Quad>(n));
   position_.upload(position), normal_.upload(normal), back_.upload(back), velocity_.upload(velocity);
 }
 
@@ -107,37 +108,40 @@ bool MovingWalls::vanishes(double after, double until) const {
                      [&](const WallMotion& m) { return m.remove_at > after && m.remove_at <= until; });
 }
 
-std::vector<WallPose> MovingWalls::poses(double time, double dt) const {
+std::vector<WallPose> MovingWalls::poses(const WallStep& step) const {
   std::vector<WallPose> result(motion_.size());
   for (std::size_t b = 0; b < motion_.size(); ++b) {
     if (!motion_[b].moves()) continue;
-    const BodyPose now = motion_[b].pose(time), then = motion_[b].pose(time + dt);
-    const BodyPose gain = motion_[b].acceleration(time + dt / 2);
+    const double time = step.now, dt = step.dt;
+    const BodyPose before = motion_[b].pose(time - step.last_dt), now = motion_[b].pose(time),
+                   then = motion_[b].pose(time + dt), gain = motion_[b].acceleration(time + dt / 2);
     WallPose& pose = result[b];
     pose.moves = true;
     pose.removed = removed(b, time);
     pose.turn = rotation(now.turn);
+    pose.turn_gain = rotation(then.turn) - pose.turn, pose.turn_gained = pose.turn - rotation(before.turn);
     pose.center = motion_[b].center - origin_;
     pose.target = pose.center + now.shift;
-    pose.velocity = (then.shift - now.shift) * (1 / dt);
+    pose.shift_gain = then.shift - now.shift, pose.shift_gained = now.shift - before.shift;
+    pose.velocity = pose.shift_gain * (1 / dt);
     pose.angular_velocity = (then.turn - now.turn) * (1 / dt);
     pose.acceleration = gain.shift, pose.angular_acceleration = gain.turn;
   }
   return result;
 }
 
-void MovingWalls::place(double time, double dt, WallArrays& wall) {
+void MovingWalls::place(const WallStep& step, WallArrays& wall) {
   if (!any_) return;
-  const std::vector<WallPose> now = poses(time, dt);
+  const std::vector<WallPose> now = poses(step);
   speed_ = 0;
   for (std::size_t b = 0; b < now.size(); ++b)
     if (now[b].moves && !now[b].removed)
       speed_ = larger(speed_, norm(now[b].velocity) + radius_[b] * norm(now[b].angular_velocity));
   pose_.upload(now);
   launch(context_, "place walls", wall.count,
-         PlaceWall{pose_.span(), body_.span(), position_.span(), normal_.span(), back_.span(),
+         PlaceWall{1 / step.dt, pose_.span(), body_.span(), position_.span(), normal_.span(), back_.span(),
                    velocity_.span(), wall.id.span(), wall.place.span(), wall.normal.span(), wall.back.span(),
-                   wall.velocity.span(), wall.acceleration.span()});
+                   wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
 }
 
 Vec3d MovingWalls::position_at(Vec3d position, std::size_t body, double time) const {

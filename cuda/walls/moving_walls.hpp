@@ -6,14 +6,20 @@
 
 namespace slagflow {
 
-// A wall's pose and its motion during a step, as the device uses it. Places are relative to the domain's
-// lower corner.
+// A wall's pose and its motion during a step and the one before, as the device uses it. Places are relative
+// to the domain's lower corner.
 struct WallPose {
   bool moves = false, removed = false;
-  Rotation turn;
+  Rotation turn, turn_gain, turn_gained;     // now, and what this step adds and the last one added
   Vec3d center, target;                      // [m] center of rotation, at the start and now
+  Vec3d shift_gain, shift_gained;            // [m] in this step and in the last
   Vec3d velocity, angular_velocity;          // [m/s], [rad/s]
   Vec3d acceleration, angular_acceleration;  // [m/s^2], [rad/s^2]
+};
+
+// A step from `now` on, and the time that the step before took [s].
+struct WallStep {
+  double now, dt, last_dt;
 };
 
 class MovingWalls {
@@ -28,10 +34,10 @@ class MovingWalls {
   // Whether a wall vanishes between two times, the first excluded.
   bool vanishes(double after, double until) const;
 
-  // Puts the walls where they are at `time`, with the velocity that takes them to where they are at
-  // time + dt, and the acceleration of the middle of the step. Particles of
-  // walls that have vanished are marked in place.w; the next sort drops them.
-  void place(double time, double dt, WallArrays&);
+  // Puts the walls where they are now, with the velocity that takes them along a straight line to where they
+  // are at the end of the step, the displacement of the last step, and the acceleration of the middle of this
+  // one. Particles of walls that have vanished are marked in place.w; the next sort drops them.
+  void place(const WallStep&, WallArrays&);
 
   // Where a particle that starts at `position` [m] is at `time`; the body's index.
   Vec3d position_at(Vec3d position, std::size_t body, double time) const;
@@ -43,7 +49,7 @@ class MovingWalls {
   double largest_speed() const { return larger(surface_speed_, speed_); }
 
  private:
-  std::vector<WallPose> poses(double time, double dt) const;
+  std::vector<WallPose> poses(const WallStep&) const;
 
   Context& context_;
   std::vector<WallMotion> motion_;  // of each body

@@ -40,12 +40,10 @@ struct AddImpulse {
     if (r2 >= square(c.flow.support)) return;
     const Quad own = c.fluid.state[i], wall = c.wall.velocity[w];
     const Real r = std::sqrt(r2), f = smoothing.gradient(r);
-    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
-    const Real other = wall_pressure_share(c.flow, c.wall.pressure[w], rest_density);
-    const Real share =
-        walls_have_tension_limits(c) ? share_towards_walls(c, i, wall_tension_limit(c, w)) : own.x;
-    const Real push = -dt * own.w * own.w * pair_pressure(c.flow, smoothing, share, other, r) * f;
-    Vec3d pressure = to_double(push * d);
+    const WallPressures<Real> p = towards_walls(c, i, wall_tension_limit(c, w));
+    const Real volumes = -dt * own.z * c.flow.wall_volume * f;
+    Vec3d pressure = to_double(
+        (volumes * pair_pressure(c.flow, smoothing, p.fluid, c.wall.pressure[w], r)) * d);
     if (capillary.any())
       pressure += to_double(dt * capillary_pull(capillary, tension_weight, i, d, r, c.flow.wall_volume));
     Vec3d viscous;
@@ -66,6 +64,8 @@ struct AddImpulse {
     sum.pressure -= pressure, sum.viscous -= viscous;
     sum.pressure_torque -= cross(at, pressure), sum.viscous_torque -= cross(at, viscous);
     sum.work += dot(pressure + viscous, to_double(xyz(wall)));
+    sum.viscous_work += dot(viscous, to_double(xyz(wall)));
+    sum.elastic_work += dot(to_double((volumes * p.elastic) * d), to_double(xyz(wall)));
   }
 
   // It is stored with the pairs of the fluid particle.
@@ -79,7 +79,7 @@ struct AddImpulse {
   }
 };
 
-// One of the thirteen numbers of an impulse, of one body or (-1) of all.
+// One of the fifteen numbers of an impulse, of one body or (-1) of all.
 struct ImpulseTerm {
   Span<const Impulse> impulse;
   Span<const std::uint8_t> body;
@@ -89,10 +89,11 @@ struct ImpulseTerm {
     const Impulse& p = impulse[i];
     const Vec3d vectors[4] = {p.pressure, p.viscous, p.pressure_torque, p.viscous_torque};
     const bool counts = wanted < 0 || body[i] == wanted;
-    return counts ? (term < 12 ? vectors[term / 3][term % 3] : p.work) : 0;
+    const double works[3] = {p.work, p.viscous_work, p.elastic_work};
+    return counts ? (term < work_term ? vectors[term / 3][term % 3] : works[term - work_term]) : 0;
   }
+  static constexpr int work_term = 12, viscous_work_term = 13, elastic_work_term = 14;
 };
-constexpr int work_term = 12;
 
 }  // namespace
 
@@ -135,14 +136,17 @@ WallLoad WallForces::load(std::size_t body) {
   };
   WallLoad load;
   Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque, &load.viscous_torque};
-  for (int term = 0; term < work_term; ++term) (*vectors[term / 3])[term % 3] = total(term);
-  load.work = total(work_term);
+  for (int term = 0; term < ImpulseTerm::work_term; ++term) (*vectors[term / 3])[term % 3] = total(term);
+  load.work = total(ImpulseTerm::work_term);
   return load;
 }
 
-double WallForces::work() {
-  return total(context_, scratch_, static_cast<Index>(impulse_.size()),
-               ImpulseTerm{impulse_.span(), body_.span(), -1, work_term});
+WallWork WallForces::work() {
+  const auto total = [&](int term) {
+    return slagflow::total(context_, scratch_, static_cast<Index>(impulse_.size()),
+                           ImpulseTerm{impulse_.span(), body_.span(), -1, term});
+  };
+  return {total(ImpulseTerm::viscous_work_term), total(ImpulseTerm::elastic_work_term)};
 }
 
 }  // namespace slagflow

@@ -19,6 +19,12 @@ struct WallForceStep {
   const SolveState* solve = nullptr;  // if given: nothing is added unless it has converged
 };
 
+// What walls did on the fluid since the start [J]: by viscosity, and by the fluid's own part of the pressure
+// of their pairs, which its elastic energy balances.
+struct WallWork {
+  double viscous = 0, elastic = 0;
+};
+
 class WallForces {
  public:
   explicit WallForces(Context&);
@@ -32,13 +38,14 @@ class WallForces {
 
   // Since the start; torques about the lower corner of the domain.
   WallLoad load(std::size_t body);
-  double work();  // of all walls [J]
+  WallWork work();  // of all walls
 
   // Of each wall particle, in the order of ids; what a checkpoint keeps.
   struct Impulse {
     Vec3d pressure, viscous;                // [N s]
     Vec3d pressure_torque, viscous_torque;  // [N m s] about the lower corner of the domain
     double work = 0;                        // [J]
+    double viscous_work = 0, elastic_work = 0;  // [J] of it, see WallWork
   };
   Buffer<Impulse>& impulses() { return impulse_; }
 

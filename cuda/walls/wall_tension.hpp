@@ -1,4 +1,5 @@
-// Adhesion: walls that bear another tension than the fluid does.
+// What a fluid particle and walls press on each other with, and adhesion: walls that bear another tension than
+// the fluid does.
 #pragma once
 
 #include "density.hpp"
@@ -25,12 +26,16 @@ HOST_DEVICE inline Lanes wall_tension_limits(const PairContext& c, const Index* 
   return load_lanes(limit);
 }
 
-// p/rho^2 of fluid particle i towards walls that bear so much [Pa]. T: Real or Lanes.
+// Pressures of a fluid particle towards walls that bear `limit` [Pa]: what the equation of state gives, and
+// with contact (contact.hpp). T: Real or Lanes.
 template <class T>
-HOST_DEVICE T share_towards_walls(const PairContext& c, Index i, T limit) {
-  const Real excess = c.fluid.motion[i].w;
-  const Real density = c.fluids[c.fluid.fluid[i]].rest_density + excess;
-  return larger(T(c.flow.sound_speed_squared * excess), -limit) / T(square(density));
+struct WallPressures {
+  T elastic, fluid;
+};
+template <class T>
+HOST_DEVICE WallPressures<T> towards_walls(const PairContext& c, Index i, T limit) {
+  const T elastic = larger(T(c.flow.sound_speed_squared * c.fluid.motion[i].w), -limit);
+  return {elastic, larger(elastic, T(c.fluid.contact[i]))};
 }
 
 }  // namespace slagflow

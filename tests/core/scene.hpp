@@ -152,7 +152,7 @@ class Scene {
   Ordering ordering;
   NeighbourList fluid_list, wall_list, wall_to_fluid;
   DepartureCounts departed;
-  bool walls_accelerate = false, walls_have_limits = false;
+  bool walls_move = false, walls_have_limits = false;
 
   // Walls bear 0, 15 or 40 Pa, the fluid 40; a quarter of their pressures is at the limit.
   void give_walls_limits() {
@@ -196,10 +196,11 @@ class Scene {
           p.fluid = k < across / 2 ? 1 : 0;
           const double rest = setup.fluids[static_cast<std::size_t>(p.fluid)].rest_density;
           p.excess = rest * random_.uniform(-0.01, 0.01);
-          p.mass = rest * std::pow(spacing, o.dimensions), p.volume = p.mass / (rest + p.excess);
+          p.mass = rest * std::pow(spacing, o.dimensions), p.volume = p.mass / std::min(rest, rest + p.excess);
           p.pressure = random_.uniform(-30, 200);
+          p.contact = random_.uniform(0, 1) < 0.2 ? random_.uniform(0, 300) : 0;
           p.viscosity = std::pow(10, random_.uniform(-1, 2));
-          const Vec3d a = random_.vector(20);
+          const Vec3d a = rest * random_.vector(20);
           p.by_pressure = {a.x, o.dimensions == 3 ? a.y : 0, a.z};
           world.particles.push_back(p);
         }
@@ -251,29 +252,30 @@ class Scene {
     std::vector<Quad> place, motion, by_pressure, state;
     std::vector<std::uint8_t> kind;
     std::vector<Index> id;
-    std::vector<Real> pressure;
+    std::vector<Real> pressure, contact;
     for (reference::Particle& p : world.particles) {
       p.x = rounded(p.x), p.v = rounded(p.v), p.excess = rounded(p.excess), p.pressure = rounded(p.pressure);
       p.volume = rounded(p.volume), p.mass = rounded(p.mass), p.viscosity = rounded(p.viscosity);
       p.by_pressure = rounded(p.by_pressure);
-      const double density = world.density(p);
       position.push_back({p.x.x, p.x.y, p.x.z});
       place.push_back(to_device(p.x, p.volume)), motion.push_back(to_device(p.v, p.excess));
       by_pressure.push_back(to_device(p.by_pressure, 0));
-      state.push_back(to_device({p.pressure / (density * density), p.viscosity, p.volume}, p.mass));
+      p.contact = rounded(p.contact), contact.push_back(static_cast<Real>(p.contact));
+      state.push_back(to_device({p.pressure, p.viscosity, p.volume}, p.mass));
       kind.push_back(static_cast<std::uint8_t>(p.fluid)), id.push_back(static_cast<Index>(id.size()));
       pressure.push_back(static_cast<Real>(p.pressure));
     }
     fluid.resize(static_cast<Index>(id.size()));
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
     fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id), fluid.pressure.upload(pressure);
+    fluid.contact.upload(contact);
     fluid.by_pressure.upload(by_pressure), fluid.increment.upload(std::vector<Quad>(id.size())),
         fluid.last_increment.upload(std::vector<Quad>(id.size())),
         fluid.shear_rate.upload(std::vector<Real>(id.size()));
   }
 
   void upload_walls() {
-    std::vector<Quad> place, normal, back, velocity, acceleration;
+    std::vector<Quad> place, normal, back, velocity, acceleration, moved;
     std::vector<Index> id;
     std::vector<Real> pressure, tension_limit;
     for (reference::Wall& w : world.walls) {
@@ -283,6 +285,7 @@ class Scene {
       back.push_back(to_device(w.back_normal, w.back_depth));
       velocity.push_back(to_device(w.v, w.sticks ? w.slip_length : -1));
       w.acceleration = rounded(w.acceleration), acceleration.push_back(to_device(w.acceleration, 0));
+      w.moved = rounded(w.moved), moved.push_back(to_device(w.moved, 0));
       tension_limit.push_back(static_cast<Real>(world.limit(w)));
       pressure.push_back(static_cast<Real>(w.pressure)), id.push_back(static_cast<Index>(id.size()));
     }
@@ -290,7 +293,7 @@ class Scene {
     wall.place.upload(place), wall.normal.upload(normal), wall.back.upload(back),
         wall.velocity.upload(velocity);
     wall.pressure.upload(pressure), wall.id.upload(id);
-    if (walls_accelerate) wall.acceleration.upload(acceleration);
+    if (walls_move) wall.acceleration.upload(acceleration), wall.moved.upload(moved);
     if (walls_have_limits) wall.tension_limit.upload(tension_limit);
   }
 

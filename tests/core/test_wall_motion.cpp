@@ -132,7 +132,7 @@ TEST(MovingWalls, PlacesAndVelocitiesAreThoseOfTheRotation) {
   MovingWalls walls(context);
   walls.upload(s, wall);
   const double dt = 1e-6;
-  walls.place(pi / 4, dt, wall);  // a quarter of a turn
+  walls.place({pi / 4, dt, dt}, wall);  // a quarter of a turn
   std::vector<Quad> place, normal, velocity;
   wall.place.download(place), wall.normal.download(normal), wall.velocity.download(velocity);
   const double rise = 0.1 * pi / 4;
@@ -144,6 +144,27 @@ TEST(MovingWalls, PlacesAndVelocitiesAreThoseOfTheRotation) {
   expect_near(to_double(xyz(velocity[1])), Vec3d{0, -2 * 0.065, 0.1}, 1e-6);
   EXPECT_NEAR(walls.largest_speed(), 0.3, 1e-6);  // at most 0.1 + 2 * 0.1
   EXPECT_NEAR(walls.largest_displacement(0, 0.1), 0.1 * 0.1 + 0.2 * 0.1, 1e-6);
+}
+
+// In steps of a fifth of a radian: the velocity goes along the chord of the step to come, and what has been
+// moved is the chord of the last.
+TEST(MovingWalls, VelocitiesAndDisplacementsGoAlongChords) {
+  SimulationSetup s = empty_setup({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
+  WallMotion& m = s.bodies[0].motion = motion(MotionKind::constant);
+  m.angular_velocity = {0, 0, 2}, m.velocity = {0, 0.3, 0.1}, m.center = {0.1, 0, 0};
+  add_wall(s, {0.2, 0, 0}, {1, 0, 0}, 0.005);
+  Context context;
+  WallArrays wall(context);
+  MovingWalls walls(context);
+  walls.upload(s, wall);
+  const double now = 0.4, dt = 0.1, last_dt = 0.07;
+  walls.place({now, dt, last_dt}, wall);
+  std::vector<Quad> velocity, moved;
+  wall.velocity.download(velocity), wall.moved.download(moved);
+  const auto at = [&](Vec3d x, double t) { return walls.position_at(x, 0, t); };
+  const Vec3d own{0.2, 0, 0}, surface{0.205, 0, 0};
+  expect_near(to_double(xyz(velocity[0])), (at(surface, now + dt) - at(surface, now)) * (1 / dt), 1e-6);
+  expect_near(to_double(xyz(moved[0])), at(own, now) - at(own, now - last_dt), 1e-7);
 }
 
 // A block that is pushed and turned ever faster: second differences of its particles' places.
@@ -160,7 +181,7 @@ TEST(MovingWalls, AccelerationsAreThoseOfTheParticles) {
   MovingWalls walls(context);
   walls.upload(s, wall);
   const double time = 0.7, dt = 1e-6, d = 1e-4;
-  walls.place(time, dt, wall);
+  walls.place({time, dt, dt}, wall);
   std::vector<Quad> acceleration;
   wall.acceleration.download(acceleration);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -188,9 +209,9 @@ TEST(MovingWalls, AWallThatVanishesLeavesTheSort) {
   walls.upload(s, wall);
   EXPECT_FALSE(walls.vanishes(0, 1.9));
   EXPECT_TRUE(walls.vanishes(1.9, 2));
-  walls.place(1.9, 1e-3, wall), ordering.sort(wall);
+  walls.place({1.9, 1e-3, 1e-3}, wall), ordering.sort(wall);
   EXPECT_EQ(wall.count, 6);
-  walls.place(2, 1e-3, wall), ordering.sort(wall);
+  walls.place({2, 1e-3, 1e-3}, wall), ordering.sort(wall);
   EXPECT_EQ(wall.count, 3);
   for (const Index id : download(context, wall.id.span())) EXPECT_EQ(id % 2, 0);
 }

@@ -37,7 +37,7 @@ TEST_P(WallPressure, MatchesOracleWhereWallsAccelerate) {
     const Vec3d a = random.vector(50);
     w.acceleration = {a.x, a.y, a.z};
   }
-  scene.walls_accelerate = true;
+  scene.walls_move = true;
   const auto pressure = extrapolate(scene);
   int changed = 0;
   for (std::size_t w = 0; w < pressure.size(); ++w) {
@@ -55,7 +55,7 @@ TEST_P(WallPressure, MatchesOracleWhereWallsAccelerate) {
 TEST_P(WallPressure, IsTheSameOfWallsAtRest) {
   Scene scene(GetParam());
   const auto alone = extrapolate(scene);
-  scene.walls_accelerate = true;
+  scene.walls_move = true;
   EXPECT_EQ(extrapolate(scene), alone);
 }
 
