@@ -103,7 +103,11 @@ void add_time_step(CaseCheck& check, const BuiltCase& built) {
       check.time_step = limit;
       check.time_step_reason = "diffusion_number rho spacing^2 / viscosity at rest";
     }
-  check.steps = std::ceil(built.resolved.output.end_time / check.time_step);
+  if (const double half = 0.5 * built.setup.end_time; half > 0 && half < check.time_step) {
+    check.time_step = half;
+    check.time_step_reason = "half of output.end_time";
+  }
+  check.steps = std::ceil(built.resolved.output.last_time() / check.time_step);
 }
 
 void add_warnings(CaseCheck& check, const BuiltCase& built) {

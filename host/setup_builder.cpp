@@ -99,6 +99,7 @@ BuiltCase build_setup(const Case& c) {
     setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.tension_limit,
                             wall.surface, wall.motion});
   setup.domain = c.domain;
+  setup.end_time = c.output.end_time;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
   setup.numerics = built.resolved.numerics;
   if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
