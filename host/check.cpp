@@ -50,10 +50,12 @@ void add_lengths(CaseCheck& check, const SimulationSetup& setup) {
   check.depth = g > 0 ? extent(setup, setup.gravity * (1 / g)) : check.width;
 }
 
-void add_speed(CaseCheck& check, const SimulationSetup& setup) {
+// The fall through the deepest body of fluid, where it is known, and not from one to another.
+void add_speed(CaseCheck& check, const BuiltCase& built) {
   double fastest = 0;
-  for (const Vec3d& v : setup.particles.velocity) fastest = std::max(fastest, norm(v));
-  const double fall = std::sqrt(2 * norm(setup.gravity) * check.depth);
+  for (const Vec3d& v : built.setup.particles.velocity) fastest = std::max(fastest, norm(v));
+  const double fall = built.sound_speed_terms.empty() ? std::sqrt(2 * norm(built.setup.gravity) * check.depth)
+                                                      : built.sound_speed_terms.front().speed;
   check.speed = std::max(fall, fastest);
   check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start";
 }
@@ -138,6 +140,12 @@ void add_warnings(CaseCheck& check, const BuiltCase& built) {
         format("the Mach number %.2g exceeds 0.15: the fluid will be compressible; raise "
                "numerics.sound_speed to %.3g m/s",
                check.mach, 10 * check.speed));
+  for (const SoundSpeedTerm& term : built.sound_speed_terms)
+    if (term.name == "impact" && term.speed > 0.3 * check.sound_speed)
+      check.warnings.push_back(
+          format("fluid will meet walls or fluid at %.3g m/s: raise numerics.sound_speed to "
+                 "%.3g m/s",
+                 term.speed, term.sound_speed()));
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (check.memory > 0.9 * memory)
@@ -186,7 +194,7 @@ CaseCheck check_case(const BuiltCase& built) {
   add_time_step(check, built);
   add_sound_speeds(check, built);
   add_lengths(check, setup);
-  add_speed(check, setup);
+  add_speed(check, built);
   add_numbers(check, setup);
   check.mach = check.speed / check.sound_speed;
   const auto fluid = static_cast<double>(check.fluid_particles);

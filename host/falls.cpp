@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
+#include <utility>
 
 namespace slagflow {
 namespace {
@@ -111,11 +113,13 @@ class Falls {
         if (holds(*below)) rests_[at(bodies.of[i])] = true;
   }
 
-  double fastest(double depth) {
+  double fastest() {
+    const std::vector<std::int64_t> surface = surfaces();
     for (std::size_t i = 0; i < sites_.particles(); ++i)
       if (!rests_[at(bodies_.of[i])]) fly(i);
-    const double height = spill() * sites_.lattice().spacing() * std::abs(a_[down_.axis]);
-    return std::max(flown_, height > 0 ? std::sqrt(2 * (height + depth)) : 0);
+    spill(surface);
+    const double height = sites_.lattice().spacing() * static_cast<double>(fallen_);
+    return std::max(flown_, std::sqrt(2 * std::abs(a_[down_.axis]) * height));
   }
 
  private:
@@ -148,63 +152,75 @@ class Falls {
         if (other != StartSites::none && bodies_.of[at(other)] == bodies_.of[i]) return;
         in_front = true;
       }
-      const bool stopped = holds(*ahead) || at_rest(*ahead);
-      if (stopped || (!met && sites_.wall(*ahead) != StartSites::none)) flown_ = std::max(flown_, norm(v));
-      if (stopped) return stand(*here);
-      met = met || sites_.wall(*ahead) != StartSites::none;
+      const bool stopped = holds(*ahead) || at_rest(*ahead), wall = sites_.wall(*ahead) != StartSites::none;
+      if ((stopped || (wall && !met)) && norm(x - start) > near * dx) flown_ = std::max(flown_, norm(v));
+      if (stopped) return stand(*here, height(*here) + depth_);
+      met = met || wall;
       if (!sites_.in_domain(*ahead)) return;
     }
   }
 
-  void stand(std::size_t site) {
+  std::int64_t height(std::size_t site) const {  // [sites] along the axis, upward
+    return -down_.step * sites_.index(site)[static_cast<std::size_t>(down_.axis)];
+  }
+
+  // Fluid on a site, driven by a surface as high as `top`.
+  void stand(std::size_t site, std::int64_t top) {
     if (state_[site] == stood) return;
     state_[site] = stood;
-    standing_.push_back(site);
+    standing_.push_back({site, top});
   }
 
   bool open(std::size_t site) const {
     return sites_.in_domain(site) && !holds(site) && sites_.fluid(site) == StartSites::none;
   }
 
-  // The longest fall off an edge [spacings], of those beyond `near`. The highest fluid goes first.
-  double spill() {
+  // The surface of each body, above its highest site, and depth_ of the deepest.
+  std::vector<std::int64_t> surfaces() {
+    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+    std::vector<std::int64_t> surface(rests_.size(), -most), floor(rests_.size(), most);
+    for (std::size_t i = 0; i < sites_.particles(); ++i) {
+      const std::int64_t here = height(sites_.taken()[i]);
+      const std::size_t body = at(bodies_.of[i]);
+      surface[body] = std::max(surface[body], here + 1), floor[body] = std::min(floor[body], here);
+    }
+    for (std::size_t b = 0; b < surface.size(); ++b) depth_ = std::max(depth_, surface[b] - floor[b]);
+    return surface;
+  }
+
+  // The highest fluid goes first.
+  void spill(const std::vector<std::int64_t>& surface) {
     std::vector<std::size_t> resting;
     for (std::size_t i = 0; i < sites_.particles(); ++i)
       if (rests_[at(bodies_.of[i])]) resting.push_back(sites_.taken()[i]);
-    const auto height = [&](std::size_t s) {
-      return -down_.step * sites_.index(s)[static_cast<std::size_t>(down_.axis)];
-    };
     std::stable_sort(resting.begin(), resting.end(),
                      [&](std::size_t a, std::size_t b) { return height(a) > height(b); });
-    for (const std::size_t site : resting) stand(site);
-    std::int64_t longest = 0;
+    for (const std::size_t site : resting) stand(site, surface[at(bodies_.of[at(sites_.fluid(site))])]);
     for (; !standing_.empty(); standing_.pop_front()) {
-      const std::size_t site = standing_.front();
-      longest = std::max(longest, fall(site));
+      const auto [site, top] = standing_.front();
+      fall(site, top);
       for (int axis = 0; axis < 3; ++axis)
         for (const int step : {-1, 1}) {
           if (axis == down_.axis) continue;
           const auto beside = sites_.beside(site, axis, step);
-          if (!beside || !open(*beside) || state_[*beside] != untouched) continue;
-          longest = std::max(longest, fall(*beside));
+          if (beside && open(*beside) && state_[*beside] == untouched) fall(*beside, top);
         }
     }
-    return longest > near ? static_cast<double>(longest) : 0;
   }
 
-  // Straight down to where it can stand. Returns the sites fallen through; for a way out of the domain those
-  // to the first wall that may go away, or 0.
-  std::int64_t fall(std::size_t site) {
-    std::int64_t to_wall = 0;
-    for (std::int64_t fallen = 0;; ++fallen) {
+  // Straight down to where it can stand, or out of the domain.
+  void fall(std::size_t site, std::int64_t top) {
+    const std::int64_t from = height(site);
+    for (bool met = false;;) {
       const auto below = sites_.beside(site, down_.axis, down_.step);
-      if (below && (holds(*below) || sites_.fluid(*below) != StartSites::none)) {
-        stand(site);
-        return fallen;
-      }
+      const std::int64_t here = height(site);
+      const bool stopped = below && (holds(*below) || sites_.fluid(*below) != StartSites::none);
+      const bool wall = below && sites_.wall(*below) != StartSites::none;
+      if ((stopped || (wall && !met)) && from - here > near) fallen_ = std::max(fallen_, top - here);
+      if (stopped) return stand(site, from - here > near ? here + depth_ : top);
+      met = met || wall;
       if (state_[site] == untouched) state_[site] = passed;
-      if (!below || !sites_.in_domain(*below)) return to_wall;
-      if (to_wall == 0 && sites_.wall(*below) != StartSites::none) to_wall = fallen;
+      if (!below || !sites_.in_domain(*below)) return;
       site = *below;
     }
   }
@@ -215,11 +231,13 @@ class Falls {
   const FluidBodies& bodies_;
   Vec3d a_;
   Down down_;
-  std::vector<bool> rests_;  // of each body
-  double flown_ = 0;         // [m/s] at the end of the fastest parabola
+  std::vector<bool> rests_;              // of each body
+  double flown_ = 0;                     // [m/s] at the end of the fastest parabola
+  std::int64_t fallen_ = 0, depth_ = 0;  // [sites] from a surface to where fluid falls; of the deepest body
   static constexpr std::uint8_t untouched = 0, passed = 1, stood = 2;
-  std::vector<std::uint8_t> state_;   // of each site
-  std::deque<std::size_t> standing_;  // floors and fluid from which more may fall
+  std::vector<std::uint8_t> state_;  // of each site
+  // Floors and fluid from which more may fall, and how high the surface is that drives it.
+  std::deque<std::pair<std::size_t, std::int64_t>> standing_;
 };
 
 }  // namespace
@@ -229,10 +247,10 @@ FluidBodies fluid_bodies(const Case& c, const StartSites& sites) {
 }
 
 double impact_speed(const Case& c, const StartSites& sites, const FluidParticles& fluid,
-                    const FluidBodies& bodies, double depth) {
+                    const FluidBodies& bodies) {
   const Down down = down_of(acceleration(c));
   if (down.step == 0 || sites.lattice().periodic(down.axis)) return 0;
-  return Falls(c, sites, fluid, bodies).fastest(depth);
+  return Falls(c, sites, fluid, bodies).fastest();
 }
 
 }  // namespace slagflow

@@ -16,11 +16,12 @@ struct FluidBodies {
 FluidBodies fluid_bodies(const Case& c, const StartSites& sites);
 
 // The largest speed at which fluid will meet a wall or fluid at rest inside of the domain [m/s]; 0 where
-// nothing falls by more than two spacings. Walls that move or vanish hold nothing and stop nothing; what
-// leaves the domain on its way does not count. A body that rests on nothing flies along its parabola. One
-// that rests, by any part, may spread over the floors that it can reach downhill, and what falls off their
-// edges has the speed of the fall and of its own depth. depth: of the deepest body [m^2/s^2].
+// nothing falls by more than two spacings. Walls that move or vanish count on the way but hold nothing: fluid
+// goes on from them. What leaves the domain on its way does not count. A body that rests on nothing flies
+// along its parabola. One that rests, by any part, may spread over the floors that it can reach downhill, and
+// what falls off their edges has the speed of a fall from its surface; after a fall, from its depth above
+// where it lands.
 double impact_speed(const Case& c, const StartSites& sites, const FluidParticles& fluid,
-                    const FluidBodies& bodies, double depth);
+                    const FluidBodies& bodies);
 
 }  // namespace slagflow

@@ -27,17 +27,45 @@ double deepest(const Case& c, const FluidParticles& fluid, const FluidBodies& bo
   return depth;
 }
 
+// The point of a wall's surface that one of its particles lies below.
+Vec3d surface_of(const WallParticles& walls, std::size_t i) {
+  return walls.position[i] + walls.depth[i] * walls.normal[i];
+}
+
 std::vector<double> surface_speeds(const Case& c, const WallParticles& walls) {
   std::vector<double> speeds(c.walls.size(), 0);
   for (std::size_t i = 0; i < walls.position.size(); ++i) {
     double& speed = speeds[walls.body[i]];
-    speed = std::max(speed, norm(c.walls[walls.body[i]].surface.at(walls.position[i])));
+    speed = std::max(speed, norm(c.walls[walls.body[i]].surface.at(surface_of(walls, i))));
   }
   return speeds;
 }
 
+// Direction of the axis that a wall turns about, of length 1; 0 without any.
+Vec3d turning_axis(const WallMotion& motion) {
+  Vec3d axis = motion.kind == MotionKind::table ? motion.axis : motion.angular_velocity;
+  if (motion.kind == MotionKind::sine) axis = motion.angular_amplitude;
+  return norm(axis) > 0 ? (1 / norm(axis)) * axis : Vec3d{};
+}
+
 double largest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+double pressure_speed(const Case& c) {
+  double speed = 0;
+  for (const RegionSpec& region : c.regions)
+    if (region.pressure == InitialPressure::uniform)
+      speed = std::max(speed, std::sqrt(2 * region.uniform_pressure /
+                                        c.fluids[static_cast<std::size_t>(region.fluid)].density));
+  return speed;
+}
+
+double tension_speed(const Case& c) {
+  double speed = 0;
+  for (const FluidSpec& fluid : c.fluids)
+    speed = std::max(speed, std::sqrt(fluid.surface_tension / (fluid.density * c.spacing)));
+  return speed;
 }
 
 }  // namespace
@@ -45,8 +73,9 @@ double largest(const std::vector<double>& values) {
 std::vector<double> motion_speeds(const Case& c, const WallParticles& walls) {
   std::vector<double> reach(c.walls.size(), 0), speeds(c.walls.size(), 0);
   for (std::size_t i = 0; i < walls.position.size(); ++i) {
+    const WallMotion& motion = c.walls[walls.body[i]].motion;
     double& r = reach[walls.body[i]];
-    r = std::max(r, norm(walls.position[i] - c.walls[walls.body[i]].motion.center));
+    r = std::max(r, norm(cross(turning_axis(motion), surface_of(walls, i) - motion.center)));
   }
   for (std::size_t b = 0; b < speeds.size(); ++b) {
     const WallMotion::Speeds fastest = c.walls[b].motion.fastest();
@@ -62,13 +91,15 @@ std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& fill
   for (const Vec3d& v : filling.fluid.velocity) start = std::max(start, norm(v));
   return {{"depth", 11, std::sqrt(2 * depth),
            "sqrt(2 g H), H " + (g > 0 ? show(std::round(1e6 * depth / g) / 1e6) : "0") + " m"},
-          {"impact", 5, impact_speed(c, *filling.sites, filling.fluid, bodies, depth),
+          {"impact", 5, impact_speed(c, *filling.sites, filling.fluid, bodies),
            "on a wall or fluid that it falls on"},
           {"walls", 10,
            std::max(largest(motion_speeds(c, filling.walls)), largest(surface_speeds(c, filling.walls))),
            "of the fastest wall"},
           {"start", 10, start, "of the fastest fluid at the start"},
-          {"squeeze", 10, squeeze_speed(c, *filling.sites), "of fluid pressed out before a moving wall"}};
+          {"squeeze", 10, squeeze_speed(c, *filling.sites), "of fluid pressed out before a moving wall"},
+          {"pressure", 11, pressure_speed(c), "sqrt(2 p / rho) of a region's pressure"},
+          {"tension", 10, tension_speed(c), "sqrt(sigma / (rho spacing))"}};
 }
 
 const SoundSpeedTerm& ruling(const std::vector<SoundSpeedTerm>& terms) {

@@ -21,13 +21,15 @@ struct SoundSpeedTerm {
 // depth: 11 sqrt(2 g H), H the depth of the deepest body of fluid that hangs together: ten times the speed of
 // a fall through it, and a tenth to spare, keeps the density within 1 %. impact: 5 times the speed at which
 // fluid will meet walls and fluid at rest in the domain. walls, start, squeeze: 10 times the fastest wall,
-// the fastest fluid at the start, the fluid that walls press out of gaps. In this order.
+// the fastest fluid at the start, the fluid that walls press out of gaps. pressure, tension: so that a
+// region's own pressure compresses the fluid as little as its depth may, and the pull of a surface no more.
+// In this order.
 std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& filling);
 
 // Of the largest; of none when there is none.
 const SoundSpeedTerm& ruling(const std::vector<SoundSpeedTerm>& terms);
 
-// Bounds of the speed of each wall's particles by its motion [m/s].
+// Bounds of the speed of each wall's surface by its motion, the wall's shape and axis as at the start [m/s].
 std::vector<double> motion_speeds(const Case& c, const WallParticles& walls);
 
 }  // namespace slagflow

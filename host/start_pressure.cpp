@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
@@ -40,7 +41,10 @@ class Heads {
     std::stable_sort(downward.begin(), downward.end(),
                      [this](std::int32_t a, std::int32_t b) { return potential(a) > potential(b); });
     for (const std::int32_t i : downward) head_[at(i)] = head_from_above(i);
-    spread(downward);
+    std::vector<std::int32_t> known_ones;
+    std::copy_if(downward.begin(), downward.end(), std::back_inserter(known_ones),
+                 [this](std::int32_t i) { return known(i); });
+    spread(std::move(known_ones));
     for (const std::int32_t i : downward) {  // fluid without a free surface: from its highest place
       if (known(i)) continue;
       head_[at(i)] = own_surface(i);
@@ -84,8 +88,7 @@ class Heads {
   void spread(std::vector<std::int32_t> edge) {
     std::vector<std::int32_t> next;
     for (; !edge.empty(); edge.swap(next), next.clear())
-      for (const std::int32_t i : edge) {
-        if (!known(i)) continue;
+      for (const std::int32_t i : edge)
         for (int axis = 0; axis < 3; ++axis)
           for (const int step : {-1, 1}) {
             const auto beside = sites_.beside(sites_.site_of(i), axis, step);
@@ -94,16 +97,15 @@ class Heads {
             head_[at(other)] = carried(i, other);
             next.push_back(other);
           }
-      }
   }
 
-  const Case& c_;
-  const StartSites& sites_;
-  const std::vector<std::uint8_t>& fluid_;
-  Vec3d gravity_;
-  std::vector<double> potential_;  // -g.x of each particle's site [m^2/s^2]
-  std::array<int, 3> up_{};        // step along each axis that goes up; 0: level
-  std::vector<double> head_;
+ const Case& c_;
+const StartSites& sites_;
+const std::vector<std::uint8_t>& fluid_;
+Vec3d gravity_;
+std::vector<double> potential_;  // -g.x of each particle's site [m^2/s^2]
+std::array<int, 3> up_{};        // step along each axis that goes up; 0: level
+std::vector<double> head_;
 };
 
 bool any_hydrostatic(const Case& c) {
