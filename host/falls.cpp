@@ -116,7 +116,7 @@ class Falls {
   double fastest() {
     const std::vector<std::int64_t> surface = surfaces();
     for (std::size_t i = 0; i < sites_.particles(); ++i)
-      if (!rests_[at(bodies_.of[i])]) fly(i);
+      if (!rests_[at(bodies_.of[i])]) fly(fluid_.position[i], fluid_.velocity[i], bodies_.of[i]);
     spill(surface);
     const double height = sites_.lattice().spacing() * static_cast<double>(fallen_);
     return std::max(flown_, std::sqrt(2 * std::abs(a_[down_.axis]) * height));
@@ -132,24 +132,23 @@ class Falls {
     return i != StartSites::none && rests_[at(bodies_.of[at(i)])];
   }
 
-  // Along the parabola of a particle at the front of its body, until it is half a spacing before something.
-  void fly(std::size_t i) {
+  // Along a parabola until half a spacing before something. Of a body's fluid only what is in front flies.
+  void fly(Vec3d start, Vec3d velocity, std::int32_t body) {
     const double dx = sites_.lattice().spacing();
     const auto [nx, ny, nz] = sites_.lattice().count();
     const double longest = 4 * dx * static_cast<double>(nx + ny + nz);  // round periodic axes
-    const Vec3d start = fluid_.position[i];
-    Vec3d x = start, v = fluid_.velocity[i];
+    Vec3d x = start, v = velocity;
     bool in_front = false, met = false;  // met: a wall that may go away
     for (double t = 0, way = 0; way < longest;) {
       const double step = 0.25 * dx / std::max(norm(v), std::sqrt(norm(a_) * dx));
       t += step, way += step * norm(v);
-      x = start + t * fluid_.velocity[i] + (0.5 * t * t) * a_;
-      v = fluid_.velocity[i] + t * a_;
+      x = start + t * velocity + (0.5 * t * t) * a_;
+      v = velocity + t * a_;
       const auto here = sites_.at(x), ahead = sites_.at(x + (0.5 * dx / norm(v)) * v);
       if (!here || !ahead) return;
       if (!in_front && norm(x - start) >= dx) {
         const std::int32_t other = sites_.fluid(*here);
-        if (other != StartSites::none && bodies_.of[at(other)] == bodies_.of[i]) return;
+        if (other != StartSites::none && bodies_.of[at(other)] == body) return;
         in_front = true;
       }
       const bool stopped = holds(*ahead) || at_rest(*ahead), wall = sites_.wall(*ahead) != StartSites::none;
@@ -203,9 +202,19 @@ class Falls {
         for (const int step : {-1, 1}) {
           if (axis == down_.axis) continue;
           const auto beside = sites_.beside(site, axis, step);
-          if (beside && open(*beside) && state_[*beside] == untouched) fall(*beside, top);
+          if (!beside || !open(*beside)) continue;
+          if (!support(sites_, *beside, down_)) leap(site, axis, step, top);
+          if (state_[*beside] == untouched) fall(*beside, top);
         }
     }
+  }
+
+  // Off an edge at the speed that the surface gives.
+  void leap(std::size_t site, int axis, int step, std::int64_t top) {
+    const double head = sites_.lattice().spacing() * (static_cast<double>(top - height(site)) - 0.5);
+    Vec3d velocity;
+    velocity[axis] = step * std::sqrt(2 * std::abs(a_[down_.axis]) * std::max(0.0, head));
+    fly(sites_.position(site), velocity, StartSites::none);
   }
 
   // Straight down to where it can stand, or out of the domain.

@@ -19,8 +19,8 @@ FluidBodies fluid_bodies(const Case& c, const StartSites& sites);
 // nothing falls by more than two spacings. Walls that move or vanish count on the way but hold nothing: fluid
 // goes on from them. What leaves the domain on its way does not count. A body that rests on nothing flies
 // along its parabola. One that rests, by any part, may spread over the floors that it can reach downhill, and
-// what falls off their edges has the speed of a fall from its surface; after a fall, from its depth above
-// where it lands.
+// what falls or leaps off their edges has the speed of a fall from its surface; after a fall, from its depth
+// above where it lands.
 double impact_speed(const Case& c, const StartSites& sites, const FluidParticles& fluid,
                     const FluidBodies& bodies);
 

@@ -102,8 +102,11 @@ TEST(SoundSpeed, FluidThatRestsFallsOffTheEdgesThatItCanReach) {
   EXPECT_EQ(term(c, "impact"), 0);
   c.walls.push_back(floor_at(0));
   EXPECT_DOUBLE_EQ(term(c, "impact"), fall(50 + 2));  // from the surface of the block
-  c.walls.push_back(wall("step", {box({20, -5, 0}, {30, 15, 10})}));
-  EXPECT_DOUBLE_EQ(term(c, "impact"), fall(40 + 2));  // and from there by 10, with a depth of 2
+  c.walls.push_back(wall("step", {box({20, -5, 0}, {45, 15, 10})}));
+  EXPECT_DOUBLE_EQ(term(c, "impact"), fall(40 + 2));
+  c.walls.resize(1);  // a floor that begins 5 beyond the edge, where a leap ends
+  c.walls.push_back(wall("basin", {box({25, -5, -5}, {45, 15, 0})}));
+  EXPECT_NEAR(term(c, "impact"), fall(50 + 2), 0.5);
   c.walls.push_back(wall("dam", {box({15, -5, 50}, {18, 15, 70})}));
   EXPECT_EQ(term(c, "impact"), 0);
 }
