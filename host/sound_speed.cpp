@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "host/falls.hpp"
 #include "host/squeeze.hpp"
-#include "host/toml_reader.hpp"
 
 namespace slagflow {
 namespace {
@@ -46,6 +46,12 @@ Vec3d turning_axis(const WallMotion& motion) {
   Vec3d axis = motion.kind == MotionKind::table ? motion.axis : motion.angular_velocity;
   if (motion.kind == MotionKind::sine) axis = motion.angular_amplitude;
   return norm(axis) > 0 ? (1 / norm(axis)) * axis : Vec3d{};
+}
+
+std::string rounded(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", length);
+  return text;
 }
 
 double largest(const std::vector<double>& values) {
@@ -89,8 +95,7 @@ std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& fill
   const double depth = deepest(c, filling.fluid, bodies), g = norm(c.gravity);
   double start = 0;
   for (const Vec3d& v : filling.fluid.velocity) start = std::max(start, norm(v));
-  return {{"depth", 11, std::sqrt(2 * depth),
-           "sqrt(2 g H), H " + (g > 0 ? show(std::round(1e6 * depth / g) / 1e6) : "0") + " m"},
+  return {{"depth", 11, std::sqrt(2 * depth), "sqrt(2 g H), H " + rounded(g > 0 ? depth / g : 0) + " m"},
           {"impact", 5, impact_speed(c, *filling.sites, filling.fluid, bodies),
            "on a wall or fluid that it falls on"},
           {"walls", 10,

@@ -181,7 +181,7 @@ TEST(SoundSpeed, CheckPrintsEachTermWhichRulesAndWhatItCosts) {
   c.walls = {floor_at(0)};
   const std::string text = to_text(check_case(build_setup(c)));
   EXPECT_THAT(text,
-              testing::ContainsRegex("by depth +69.57 m/s = 11 x 6.325 m/s, sqrt\\(2 g H\\), H 2.0 m: time "
+              testing::ContainsRegex("by depth +69.57 m/s = 11 x 6.325 m/s, sqrt\\(2 g H\\), H 2 m: time "
                                      "step 0.0149 s, 67 steps\n"));
   EXPECT_THAT(text,
               testing::ContainsRegex("by impact +15[89]\\..* m/s = 5 x 31\\..*, on a wall or fluid that it "
