@@ -172,7 +172,8 @@ double capillary_time_step(const SimulationSetup& s) {
 
 double stable_time_step(const SimulationSetup& s) {
   const double acoustic = s.numerics.courant * 0.5 * s.support_ratio * s.spacing / s.numerics.sound_speed;
-  const double dt = smaller(acoustic, capillary_time_step(s));
+  double dt = smaller(acoustic, capillary_time_step(s));
+  if (s.end_time > 0) dt = smaller(dt, 0.5 * s.end_time);
   return s.numerics.max_time_step > 0 ? smaller(dt, s.numerics.max_time_step) : dt;
 }
 

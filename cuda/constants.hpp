@@ -39,7 +39,7 @@ double viscosity_correction(const SimulationSetup&);
 // J. U. Brackbill et al., J. Comput. Phys. 100 (1992) 335.
 double capillary_time_step(const SimulationSetup&);
 
-// dt <= courant (h/2)/c0, capillary_time_step(), and max_time_step when there is one [s].
+// dt <= courant (h/2)/c0, capillary_time_step(), half of end_time, and max_time_step when there is one [s].
 double stable_time_step(const SimulationSetup&);
 
 }  // namespace slagflow

@@ -162,6 +162,8 @@ struct SimulationSetup {
   DomainSetup domain;
   NumericsSetup numerics;
   LimitSetup limits;
+  // [s], 0: none. The steps before it are cut so that one ends there; going on beyond it is allowed.
+  double end_time = 0;
   std::vector<FrontSetup> fronts;
   std::vector<FrontSetup> planes;  // through which the flow is measured, along their sign
   std::vector<BoxSetup> boxes;

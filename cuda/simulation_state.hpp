@@ -75,6 +75,7 @@ struct Simulation::State {
   PairContext pairs() const;
   double kick();
   void choose_time_step();
+  double time_after_step() const;
   ViscousStep::Step viscous_step();
   void reserve_step();
   void launch_step();

@@ -17,13 +17,22 @@ double Simulation::State::kick() {
   return g > 0 ? g * dt : 1e-4 * larger(walls.largest_speed(), largest_speed(context, fluid, diagnostics));
 }
 
-// The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5).
+// The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5). The
+// last two before the end share what is left, so that none is much shorter than the others.
 void Simulation::State::choose_time_step() {
   dt = full_dt;
-  if (setup.numerics.viscous_step != ViscousStepping::explicit_step) return;
-  const double diffusivity = largest_diffusivity(context, fluid, diagnostics);
-  if (diffusivity > 0)
-    dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
+  if (setup.numerics.viscous_step == ViscousStepping::explicit_step) {
+    const double diffusivity = largest_diffusivity(context, fluid, diagnostics);
+    if (diffusivity > 0)
+      dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
+  }
+  const double left = setup.end_time - time;
+  if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
+}
+
+// A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
+double Simulation::State::time_after_step() const {
+  return dt == setup.end_time - time ? setup.end_time : time + dt;
 }
 
 ViscousStep::Step Simulation::State::viscous_step() {
@@ -181,7 +190,7 @@ void Simulation::step() {
     s.capillary_work += s.dt * s.last->capillary_power;
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
-  s.time += s.dt;
+  s.time = s.time_after_step();
   s.last_dt = s.dt;
   ++s.steps;
   if (s.steps % s.setup.limits.interval == 0) s.look();

@@ -88,13 +88,16 @@ struct WallSpec {
 };
 
 struct OutputSpec {
-  double end_time = 0;          // [s]
+  double end_time = 0;          // [s], time steps are cut to meet it
+  double until = 0;             // [s] the run ends with the first step at or after it; 0: at end_time
   double interval = 0;          // [s] between snapshots
   double history_interval = 0;  // [s] between lines of the history
   bool walls = true;            // write the wall particles
   // [s] of wall time between checkpoints; 0: only at the end and on signals
   double checkpoint_interval = 300;
   std::string stop_after;  // a front or jet that ends the run when it arrives; empty: none
+
+  double last_time() const { return until > 0 ? until : end_time; }
 };
 
 enum class MeasureType { front, jet, flow_rate, volume, profile, force };

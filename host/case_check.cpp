@@ -186,6 +186,18 @@ void check_numerics(const Case& c, CaseProblems& problems) {
                        "\"herschel-bulkley\", \"carreau-yasuda\"");
 }
 
+// Single precision holds neither the powers of smaller lengths nor those of larger ones.
+void check_scale(const Case& c, CaseProblems& problems) {
+  if (!problems.fine({"resolution.spacing", "numerics.yield"})) return;
+  const bool exact = c.numerics.yield == YieldModel::exact;
+  const double smallest = exact ? 5e-6 : 2e-6, largest = exact ? 1e3 : 1e4;
+  if (c.spacing >= smallest && c.spacing <= largest) return;
+  problems.add("resolution.spacing",
+               "value " + show(c.spacing) + " with numerics.yield = \"" + (exact ? "exact" : "regularised") +
+                   "\" is beyond what single precision holds the powers of: allowed: " + show(smallest) +
+                   " to " + show(largest) + " [m]");
+}
+
 }  // namespace
 
 void check_across_tables(const Case& c, CaseProblems& problems) {
@@ -195,6 +207,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_stop(c, problems);
   check_tension_limits(c, problems);
   check_numerics(c, problems);
+  check_scale(c, problems);
 }
 
 }  // namespace slagflow

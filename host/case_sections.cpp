@@ -303,6 +303,9 @@ void read_output(CaseTable& top, Case& c) {
   c.output.history_interval = c.output.interval / 10;
   t.read("history_interval", c.output.history_interval,
          timed ? at_least(c.output.end_time / most_history_lines, "s") : above(0, "s"));
+  Range until = above(0, "s, or \"end_time\"");
+  if (timed) until.upper = longest_run(c.output);
+  if (!t.says("until", "end_time")) t.read("until", c.output.until, until);
   t.read("walls", c.output.walls);
   t.read("checkpoint_interval", c.output.checkpoint_interval, at_least(0, "s"));
   t.read("stop_after", c.output.stop_after);

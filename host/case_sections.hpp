@@ -19,6 +19,11 @@ int index_of(const Direction& direction);
 // Of a run, to its end time.
 constexpr double most_snapshots = 1e6, most_history_lines = 1e8;
 
+// How far the intervals of the outputs allow a run to go, or its checkpoints could not be read again [s].
+inline double longest_run(const OutputSpec& output) {
+  return smaller(output.interval * most_snapshots, output.history_interval * most_history_lines);
+}
+
 // Letters, digits, _ - . with a letter, digit or _ at the start: safe as a file name and a key.
 bool is_plain_name(const std::string& name);
 

@@ -201,7 +201,9 @@ std::string to_toml(const Case& c) {
   write_walls(out, c);
   write_numerics(out, c);
   out << limits_text(c.limits);
-  out << "[output]\nend_time = " << show(c.output.end_time) << "\ninterval = " << show(c.output.interval)
+  out << "[output]\nend_time = " << show(c.output.end_time)
+      << "\nuntil = " << (c.output.until > 0 ? show(c.output.until) : "\"end_time\"")
+      << "\ninterval = " << show(c.output.interval)
       << "\nhistory_interval = " << show(c.output.history_interval) << "\nwalls = " << text_of(c.output.walls)
       << "\ncheckpoint_interval = " << show(c.output.checkpoint_interval)
       << "\nstop_after = " << quoted(c.output.stop_after) << "\n";

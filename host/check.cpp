@@ -50,10 +50,12 @@ void add_lengths(CaseCheck& check, const SimulationSetup& setup) {
   check.depth = g > 0 ? extent(setup, setup.gravity * (1 / g)) : check.width;
 }
 
-void add_speed(CaseCheck& check, const SimulationSetup& setup) {
+// The fall through the deepest body of fluid, where it is known, and not from one to another.
+void add_speed(CaseCheck& check, const BuiltCase& built) {
   double fastest = 0;
-  for (const Vec3d& v : setup.particles.velocity) fastest = std::max(fastest, norm(v));
-  const double fall = std::sqrt(2 * norm(setup.gravity) * check.depth);
+  for (const Vec3d& v : built.setup.particles.velocity) fastest = std::max(fastest, norm(v));
+  const double fall = built.sound_speed_terms.empty() ? std::sqrt(2 * norm(built.setup.gravity) * check.depth)
+                                                      : built.sound_speed_terms.front().speed;
   check.speed = std::max(fall, fastest);
   check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start";
 }
@@ -82,28 +84,53 @@ void add_numbers(CaseCheck& check, const SimulationSetup& setup) {
   }
 }
 
-void add_time_step(CaseCheck& check, const BuiltCase& built) {
-  const NumericsSetup& numerics = built.setup.numerics;
-  check.time_step = numerics.courant * (check.support_radius / 2) / numerics.sound_speed;
-  check.time_step_reason = "courant (h/2) / sound speed";
-  if (const double limit = capillary_time_step(built.setup); limit < check.time_step) {
-    check.time_step = limit;
-    check.time_step_reason = "courant sqrt(rho spacing^3 / (2 pi surface tension))";
+struct TimeStep {
+  double length = 0;  // [s]
+  std::string reason;
+
+  void limit(double to, const char* why) {
+    if (to < length) length = to, reason = why;
   }
-  if (numerics.max_time_step > 0 && numerics.max_time_step < check.time_step) {
-    check.time_step = numerics.max_time_step;
-    check.time_step_reason = "numerics.max_time_step";
-  }
+};
+
+TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
+  const NumericsSetup& numerics = setup.numerics;
+  TimeStep step{numerics.courant * (setup.support_ratio * setup.spacing / 2) / sound_speed,
+                "courant (h/2) / sound speed"};
+  step.limit(capillary_time_step(setup), "courant sqrt(rho spacing^3 / (2 pi surface tension))");
+  if (setup.end_time > 0) step.limit(0.5 * setup.end_time, "half of output.end_time");
+  if (numerics.max_time_step > 0) step.limit(numerics.max_time_step, "numerics.max_time_step");
   if (numerics.viscous_step == ViscousStepping::explicit_step)
-    for (const FluidSetup& fluid : built.setup.fluids) {
-      const double stiffest = static_cast<double>(viscosity(fluid.rheology, 0));
-      const double limit =
-          numerics.diffusion_number * fluid.rest_density * check.spacing * check.spacing / stiffest;
-      if (limit >= check.time_step) continue;
-      check.time_step = limit;
-      check.time_step_reason = "diffusion_number rho spacing^2 / viscosity at rest";
-    }
-  check.steps = std::ceil(built.resolved.output.end_time / check.time_step);
+    for (const FluidSetup& fluid : setup.fluids)
+      step.limit(numerics.diffusion_number * fluid.rest_density * setup.spacing * setup.spacing /
+                     static_cast<double>(viscosity(fluid.rheology, 0)),
+                 "diffusion_number rho spacing^2 / viscosity at rest");
+  return step;
+}
+
+void add_time_step(CaseCheck& check, const BuiltCase& built) {
+  const TimeStep step = time_step(built.setup, built.setup.numerics.sound_speed);
+  check.time_step = step.length, check.time_step_reason = step.reason;
+  check.steps = std::ceil(built.resolved.output.last_time() / check.time_step);
+}
+
+// What each speed asks for and costs.
+void add_sound_speeds(CaseCheck& check, const BuiltCase& built) {
+  if (built.sound_speed_terms.empty()) return;
+  const SoundSpeedTerm& first = built.sound_speed_terms.front();
+  const std::string& rules = ruling(built.sound_speed_terms).name;
+  for (const SoundSpeedTerm& term : built.sound_speed_terms) {
+    const double c0 = term.sound_speed();
+    if (!(c0 > 0)) continue;
+    const TimeStep step = time_step(built.setup, c0);
+    std::string line = format("by %-9s %.4g m/s = %g x %.4g m/s, %s: time step %.3g s, %.0f steps",
+                              term.name.c_str(), c0, term.factor, term.speed, term.what.c_str(), step.length,
+                              std::ceil(built.resolved.output.last_time() / step.length));
+    if (&term != &first && first.sound_speed() > 0)
+      line += format(", %.3g times those by %s",
+                     time_step(built.setup, first.sound_speed()).length / step.length, first.name.c_str());
+    check.sound_speeds.push_back(line + (term.name == rules ? "; auto takes it" : ""));
+  }
 }
 
 void add_warnings(CaseCheck& check, const BuiltCase& built) {
@@ -113,6 +140,12 @@ void add_warnings(CaseCheck& check, const BuiltCase& built) {
         format("the Mach number %.2g exceeds 0.15: the fluid will be compressible; raise "
                "numerics.sound_speed to %.3g m/s",
                check.mach, 10 * check.speed));
+  for (const SoundSpeedTerm& term : built.sound_speed_terms)
+    if (term.name == "impact" && term.speed > 0.3 * check.sound_speed)
+      check.warnings.push_back(
+          format("fluid will meet walls or fluid at %.3g m/s: raise numerics.sound_speed to "
+                 "%.3g m/s",
+                 term.speed, term.sound_speed()));
   const double memory =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
   if (check.memory > 0.9 * memory)
@@ -159,8 +192,9 @@ CaseCheck check_case(const BuiltCase& built) {
   check.sound_speed = setup.numerics.sound_speed;
   check.viscosity_correction = viscosity_correction(setup);
   add_time_step(check, built);
+  add_sound_speeds(check, built);
   add_lengths(check, setup);
-  add_speed(check, setup);
+  add_speed(check, built);
   add_numbers(check, setup);
   check.mach = check.speed / check.sound_speed;
   const auto fluid = static_cast<double>(check.fluid_particles);
@@ -185,6 +219,7 @@ std::string to_text(const CaseCheck& c) {
   text +=
       "                 Reynolds = rho U L / eta, Bingham = tau_B L / (eta U), N = rho L sqrt(g H) / eta\n";
   text += format("sound speed      %.4g m/s, Mach number %.3g\n", c.sound_speed, c.mach);
+  for (const std::string& line : c.sound_speeds) text += "                 " + line + "\n";
   text += format("viscosity        corrected by %.4f for the bias of the operator at this support ratio\n",
                  c.viscosity_correction);
   text += format("memory           about %.3g MB\n", c.memory / 1e6);

@@ -33,11 +33,12 @@ struct CaseCheck {
   double width = 0;  // [m] L, smaller extent of the fluid across gravity; without gravity: as H
   double speed = 0;  // [m/s] U
   std::string speed_source;
-  std::vector<FluidNumbers> fluids;  // numbers that need a speed are not-a-number where there is none
-  double sound_speed = 0, mach = 0;  // [m/s], U / sound speed
-  double viscosity_correction = 0;   // C of equation (7)
-  double memory = 0;                 // [bytes]
-  double run_time = 0;               // [s]
+  std::vector<FluidNumbers> fluids;       // numbers that need a speed are not-a-number where there is none
+  double sound_speed = 0, mach = 0;       // [m/s], U / sound speed
+  std::vector<std::string> sound_speeds;  // a line for each term of the automatic one
+  double viscosity_correction = 0;        // C of equation (7)
+  double memory = 0;                      // [bytes]
+  double run_time = 0;                    // [s]
   std::vector<std::string> warnings;
 };
 

@@ -9,6 +9,7 @@
 
 #include "backend/error.hpp"
 #include "host/region_fields.hpp"
+#include "host/start_pressure.hpp"
 
 namespace slagflow {
 namespace {
@@ -34,6 +35,9 @@ class Filler {
     for (std::size_t b = 0; b < solids_.count(); ++b)
       if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
     warn_of_empty_walls();
+    const auto sites = std::make_shared<StartSites>(lattice_, std::move(body_), std::move(site_));
+    result_.fluid.pressure = start_pressure(c_, *sites, result_.fluid, region_);
+    result_.sites = sites;
     return std::move(result_);
   }
 
@@ -73,13 +77,14 @@ class Filler {
           check_room();
           out.position.push_back(region.jitter > 0 ? jittered(*place, region.jitter) : *place);
           out.velocity.push_back(initial_velocity(region, out.position.back()));
+          site_.push_back(lattice_.linear(s));
         });
     if (out.position.size() == first)
       throw InputError(c_.place_of(key) + ": key '" + key +
                        "': no particle: allowed: shapes that hold a lattice site " + plane() +
                        "inside the domain, " + "outside of walls and of earlier regions");
     out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
-    set_pressure(region, first);
+    region_.resize(out.position.size(), static_cast<std::uint32_t>(r));
   }
 
   // Where the sites are.
@@ -124,25 +129,6 @@ class Filler {
       if (lattice_.in_domain(p) && solids_.distance(p) >= wall_gap * lattice_.spacing()) return p;
     }
     return site;
-  }
-
-  // rho |g| times the depth below the free surface, half a spacing above the highest particle.
-  void set_pressure(const RegionSpec& region, std::size_t first) {
-    FluidParticles& out = result_.fluid;
-    out.pressure.resize(out.position.size(), 0);
-    if (region.pressure == InitialPressure::zero) return;
-    if (region.pressure == InitialPressure::uniform) {
-      std::fill(out.pressure.begin() + static_cast<std::ptrdiff_t>(first), out.pressure.end(),
-                region.uniform_pressure);
-      return;
-    }
-    const double density = c_.fluids[static_cast<std::size_t>(region.fluid)].density;
-    double highest = -std::numeric_limits<double>::infinity();  // potential -g.x, [m^2/s^2]
-    for (std::size_t i = first; i < out.position.size(); ++i)
-      highest = std::max(highest, -dot(c_.gravity, out.position[i]));
-    highest += 0.5 * lattice_.spacing() * norm(c_.gravity);
-    for (std::size_t i = first; i < out.position.size(); ++i)
-      out.pressure[i] = density * (highest + dot(c_.gravity, out.position[i]));
   }
 
   template <class Visit>
@@ -285,8 +271,10 @@ class Filler {
   const Case& c_;
   Lattice lattice_;
   WallSolids solids_;
-  std::vector<std::uint8_t> body_;   // per site: 0, or index of the wall + 1
-  std::vector<std::uint8_t> flags_;  // per site
+  std::vector<std::uint8_t> body_;     // per site: 0, or index of the wall + 1
+  std::vector<std::uint8_t> flags_;    // per site
+  std::vector<std::size_t> site_;      // of each fluid particle
+  std::vector<std::uint32_t> region_;  // of each fluid particle
   std::set<std::tuple<std::size_t, int, int, long>> warned_;
   std::vector<SiteIndex> steps_;
   Filling result_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -111,9 +112,12 @@ class WallFaces {
   double spacing_, reach_;
 };
 
+class StartSites;
+
 struct Filling {
   FluidParticles fluid;
   WallParticles walls;
+  std::shared_ptr<const StartSites> sites;  // who has which site of the lattice
   std::vector<std::string> warnings;
 };
 

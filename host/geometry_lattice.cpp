@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t block = 8;      // sites along the edge of a block
 constexpr double tie = 1e-6;           // [spacings] nudge that decides for sites on a face
-constexpr double bytes_per_site = 2;   // flags and wall index
+constexpr double bytes_per_site = 6;   // flags, index of the wall and of the particle
 constexpr double largest_index = 1e9;  // keeps positions exact to a fraction of a spacing
 
 }  // namespace

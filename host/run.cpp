@@ -1,6 +1,5 @@
 #include "host/run.hpp"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <utility>
@@ -47,18 +46,16 @@ void require_loops(const Case& c) {
                      ": allowed: \"batch\"");
 }
 
-// As long as the intervals of the case allow, or its checkpoints could not be read again.
+// The end time of the case stays: the time steps before it are part of the flow.
 void end_at(double until, Case& c) {
-  if (c.output.interval < until / most_snapshots || c.output.history_interval < until / most_history_lines)
-    throw InputError(
-        "--until " + show(until) + ": allowed: up to " +
-        show(std::min(c.output.interval * most_snapshots, c.output.history_interval * most_history_lines)) +
-        " s with this output.interval and output.history_interval");
-  c.output.end_time = until;
+  if (until > longest_run(c.output))
+    throw InputError("--until " + show(until) + ": allowed: up to " + show(longest_run(c.output)) +
+                     " s with this output.interval and output.history_interval");
+  c.output.until = until == c.output.end_time ? 0 : until;
 }
 
 std::string already_there(const RunRecord& run, const Case& c) {
-  return "the run has reached its end of " + std::to_string(c.output.end_time) + " s already, at " +
+  return "the run has reached its end of " + std::to_string(c.output.last_time()) + " s already, at " +
          std::to_string(run.time) + " s; --until SECONDS takes it further";
 }
 
@@ -118,7 +115,7 @@ RunOutcome resume_run(const RunOptions& options) {
   log.info("resumed from " + found.path + " at " + std::to_string(at.time) + " s, step " +
            std::to_string(at.steps));
   RunOutcome outcome = run.execute();
-  if (outcome.status == RunStatus::done && at.time >= c.output.end_time)
+  if (outcome.status == RunStatus::done && at.time >= c.output.last_time())
     outcome.results.insert(outcome.results.begin(), already_there(at, c));
   return outcome;
 }

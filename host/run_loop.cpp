@@ -137,7 +137,7 @@ RunStatus Run::loop() {
     const double time = simulation.time();
     if (history_due_.due(time)) record();
     if (snapshot_due_.due(time)) take_snapshot();
-    if (time >= built_.resolved.output.end_time) return RunStatus::done;
+    if (time >= built_.resolved.output.last_time()) return RunStatus::done;
     if (measures_.arrived(built_.resolved.output.stop_after)) return RunStatus::done;
     if (signals_.requested()) {
       log_.warning("interrupted at " + std::to_string(time) + " s");
@@ -281,8 +281,8 @@ ProgressState Run::progress() const {
   const SolverTotals solver = simulation_->solver_totals();
   const double mean =
       solver.steps > 0 ? static_cast<double>(solver.iterations) / static_cast<double>(solver.steps) : 0;
-  return {simulation_->time(), built_.resolved.output.end_time, simulation_->steps(), counts_.particle_steps,
-          mean};
+  return {simulation_->time(), built_.resolved.output.last_time(), simulation_->steps(),
+          counts_.particle_steps, mean};
 }
 
 }  // namespace slagflow

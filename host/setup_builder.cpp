@@ -1,49 +1,30 @@
 #include "host/setup_builder.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "backend/error.hpp"
 #include "host/geometry.hpp"
 
 namespace slagflow {
 namespace {
 
-// c0 = 11 sqrt(2 |g| H): ten times the speed of a fall through the depth of the fluid, and a tenth to
-// spare, keeps the density within 1 %.
-double automatic_sound_speed(const Case& c, const FluidParticles& fluid) {
-  const double g = norm(c.gravity);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (const Vec3d& p : fluid.position) {
-    const double potential = -dot(c.gravity, p);
-    low = std::min(low, potential), high = std::max(high, potential);
-  }
-  const double speed = 11 * std::sqrt(2 * (high - low + g * c.spacing));
+double automatic_sound_speed(const Case& c, const std::vector<SoundSpeedTerm>& terms) {
+  const double speed = ruling(terms).sound_speed();
   if (!(speed > 0))
     throw InputError(
         c.place_of("numerics.sound_speed") +
-        ": key 'numerics.sound_speed': value \"auto\" gives 0 without gravity: allowed: a number > 0 "
-        "[m/s], about ten times the largest speed");
+        ": key 'numerics.sound_speed': value \"auto\" gives 0 without gravity or anything that moves at the "
+        "start: allowed: a number > 0 [m/s], about ten times the largest speed");
   return speed;
 }
 
 // Fast walls compress the fluid in front of them.
-void warn_of_fast_walls(const SimulationSetup& setup, std::vector<std::string>& warnings) {
+void warn_of_fast_walls(const std::vector<double>& speeds, const SimulationSetup& setup,
+                        std::vector<std::string>& warnings) {
   constexpr double fast = 0.2;  // of the sound speed
-  std::vector<double> reach(setup.bodies.size(), 0);
-  for (std::size_t i = 0; i < setup.walls.position.size(); ++i) {
-    double& r = reach[setup.walls.body[i]];
-    r = std::max(r, norm(setup.walls.position[i] - setup.bodies[setup.walls.body[i]].motion.center));
-  }
-  for (std::size_t b = 0; b < setup.bodies.size(); ++b) {
-    const WallMotion::Speeds speeds = setup.bodies[b].motion.fastest();
-    const double speed = speeds.linear + reach[b] * speeds.angular;
-    if (speed > fast * setup.numerics.sound_speed)
-      warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speed) +
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+    if (speeds[b] > fast * setup.numerics.sound_speed)
+      warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speeds[b]) +
                          " m/s: numerics.sound_speed, " + std::to_string(setup.numerics.sound_speed) +
                          " m/s, should be ten times that");
-  }
 }
 
 FluidSetup fluid_setup(const FluidSpec& spec) {
@@ -83,8 +64,10 @@ BuiltCase build_setup(const Case& c) {
   BuiltCase built;
   built.resolved = c;
   built.warnings = std::move(filling.warnings);
+  built.sound_speed_terms = sound_speed_terms(c, filling);
   if (!(c.numerics.sound_speed > 0))
-    built.resolved.numerics.sound_speed = automatic_sound_speed(c, filling.fluid);
+    built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
+  const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);
 
   SimulationSetup& setup = built.setup;
   setup.dimensions = c.dimensions;
@@ -99,12 +82,13 @@ BuiltCase build_setup(const Case& c) {
     setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.tension_limit,
                             wall.surface, wall.motion});
   setup.domain = c.domain;
+  setup.end_time = c.output.end_time;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
   setup.numerics = built.resolved.numerics;
   if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
   setup.limits = built.resolved.limits;
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
-  warn_of_fast_walls(setup, built.warnings);
+  warn_of_fast_walls(wall_speeds, setup, built.warnings);
   return built;
 }
 

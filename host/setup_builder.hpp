@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/case.hpp"
+#include "host/sound_speed.hpp"
 #include "setup.hpp"
 
 namespace slagflow {
@@ -13,6 +14,7 @@ struct BuiltCase {
   SimulationSetup setup;              // fronts: one for each measure, in the order of Case::measures
   Case resolved;                      // the case with automatic speeds replaced by their values
   std::vector<std::string> warnings;  // one line each, for stderr
+  std::vector<SoundSpeedTerm> sound_speed_terms;
 };
 
 // Places the particles of a validated case.

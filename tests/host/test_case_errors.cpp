@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "backend/error.hpp"
@@ -177,6 +178,14 @@ const std::vector<Wrong> wrong_cases{
     {24,
      "end_time = 1\ninterval = 1e-9",
      {"case.toml:25: key 'output.interval': value 1e-09 is out of range"}},
+    {24, "end_time = 1\nuntil = 1e9", {"case.toml:25: key 'output.until': value 1e+09 is out of range"}},
+    {24, "end_time = 1\nuntil = 'later'", {"case.toml:25: key 'output.until'", "or \"end_time\""}},
+    // Beyond single precision
+    {4,
+     "spacing = 1.9e-6",
+     {"case.toml:4: key 'resolution.spacing': value 1.9e-06 with numerics.yield = \"regularised\" is beyond "
+      "what single precision holds the powers of: allowed: 2e-06 to 10000.0 [m]"}},
+    {4, "spacing = 10001", {"case.toml:4: key 'resolution.spacing': value 10001.0 with numerics.yield"}},
     {29, "position = 0\nfraction = 1", {"case.toml:30", "allowed: a number > 0.0 and < 1.0"}},
     // Words
     {9,
@@ -383,6 +392,20 @@ TEST(CaseErrors, AnExactYieldStressNamesWhatItCannotGoWith) {
     EXPECT_NE(message.find("with numerics.yield = \"exact\": allowed: "), std::string::npos) << message;
   }
   EXPECT_EQ(message_of(good, {"numerics.yield=exact"}), "accepted");
+}
+
+TEST(CaseErrors, SpacingsThatSinglePrecisionCannotCarryAreRefusedByTheYieldModel) {
+  for (const auto& [spacing, regularised, exact] :
+       {std::tuple{"1.9e-6", false, false}, std::tuple{"2e-6", true, false},
+        std::tuple{"4.9e-6", true, false}, std::tuple{"5e-6", true, true}, std::tuple{"1e3", true, true},
+        std::tuple{"1001", true, false}, std::tuple{"1e4", true, false}, std::tuple{"10001", false, false}})
+    for (const bool is_exact : {false, true}) {
+      const std::string message =
+          message_of(text_with(4, std::string("spacing = ") + spacing),
+                     {is_exact ? "numerics.yield=exact" : "numerics.yield=regularised"});
+      const bool accepted = message.find("key 'resolution.spacing'") == std::string::npos;
+      EXPECT_EQ(accepted, is_exact ? exact : regularised) << message;
+    }
 }
 
 TEST(CaseErrors, AMissingFileIsNamed) {

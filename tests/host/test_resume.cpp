@@ -162,17 +162,18 @@ std::string attribute_of(const std::string& path, const char* name) {
   return "missing";
 }
 
-// The outputs of a run that was taken further carry the case that gives them.
+// The outputs of a run that was taken further carry the case that gives them. Its end time stays as written.
 TEST_F(Resume, CaseInTheOutputsFollowsALaterEndTime) {
   run_here("run", 0.0107);
   for (const char* name : {"/particles.vtkhdf", "/walls.vtkhdf"}) {
-    EXPECT_THAT(attribute_of(folder_ / "run" + name, "case_text"), HasSubstr("end_time = 0.0107\n"));
+    EXPECT_THAT(attribute_of(folder_ / "run" + name, "case_text"),
+                HasSubstr("end_time = 0.03\nuntil = 0.0107\n"));
     EXPECT_THAT(attribute_of(folder_ / "run" + name, "ended_utc"), testing::EndsWith("Z"));
   }
   const std::string started = attribute_of(folder_ / "run/particles.vtkhdf", "started_utc");
   resume_here("run", std::stod(end_time));
   const std::string resolved = read_text_file(folder_ / "run/case.toml");
-  EXPECT_THAT(resolved, HasSubstr("end_time = 0.03\n"));
+  EXPECT_THAT(resolved, HasSubstr("end_time = 0.03\nuntil = \"end_time\"\n"));
   for (const char* name : {"/particles.vtkhdf", "/walls.vtkhdf"}) {
     EXPECT_EQ(attribute_of(folder_ / "run" + name, "case_text"), resolved);
     EXPECT_EQ(attribute_of(folder_ / "run" + name, "started_utc"), started);
@@ -207,6 +208,21 @@ TEST_F(Resume, TakesAFinishedRunFurther) {
   expect_same_results(folder_ / "extended", folder_ / "unbroken");
   EXPECT_THAT(read_text_file(folder_ / "extended/case.toml"),
               HasSubstr(std::string("end_time = ") + end_time));
+}
+
+// Beyond the end time of the case, at which its steps are cut: those steps are part of the run that goes on.
+TEST_F(Resume, GoesBeyondTheEndTimeOfTheCaseToTheBitsOfAnUnbrokenRun) {
+  constexpr double later = 0.0421;
+  run_here("unbroken", later);
+  run_here("in_steps", 0.0107);
+  for (const double until : {0.03, 0.0333, later}) EXPECT_EQ(resume_here("in_steps", until).exit_code(), 0);
+  expect_same_results(folder_ / "in_steps", folder_ / "unbroken");
+  EXPECT_EQ(read_text_file(folder_ / "in_steps/case.toml"), read_text_file(folder_ / "unbroken/case.toml"));
+  const std::string history = read_text_file(folder_ / "unbroken/history.csv");
+  EXPECT_THAT(history, HasSubstr("\n0.03,"));  // exactly
+  const RunRecord end = read_checkpoint(folder_ / "unbroken/checkpoint.h5").run;
+  EXPECT_GE(end.time, later);
+  EXPECT_GT(end.time - later, 1e-9) << "cut to meet a time that is not the case's own";
 }
 
 TEST_F(Resume, LeavesAFinishedRunAsItIsAndSaysSo) {

@@ -9,9 +9,12 @@
 #include <thread>
 
 #include "backend/error.hpp"
+#include "host/checkpoint.hpp"
 #include "host/info.hpp"
 #include "host/run.hpp"
 #include "host/run_interrupt.hpp"
+#include "host/setup_builder.hpp"
+#include "simulation.hpp"
 #include "temp_folder.hpp"
 #include "tiny_case.hpp"
 
@@ -88,6 +91,58 @@ TEST(Run, ResolvedCaseGivesTheSameRun) {
   run_case(load_case(folder / "run/case.toml"), again);
   EXPECT_EQ(read_text_file(folder / "run/history.csv"), read_text_file(folder / "again/history.csv"));
   EXPECT_EQ(read_text_file(folder / "run/case.toml"), read_text_file(folder / "again/case.toml"));
+}
+
+TEST(Run, EndsAtItsEndTimeExactly) {
+  const TempFolder folder;
+  run_text(tiny_case("0.0041"), into(folder));
+  EXPECT_EQ(read_checkpoint(folder / "run/checkpoint.h5").run.time, 0.0041);
+  EXPECT_THAT(lines_of(folder / "run/history.csv").back(), testing::StartsWith("0.0041,"));
+}
+
+// In next to no gravity the longest stable step would be 300 s.
+TEST(Run, TakesNoStepLongerThanItsEndTime) {
+  const TempFolder folder;
+  const Case c = parse_case(tiny_case("0.02"), "tiny.toml",
+                            {"gravity.acceleration=[0,0,-1e-12]", "numerics.sound_speed=auto"});
+  EXPECT_EQ(run_case(c, into(folder)).status, RunStatus::done);
+  const RunRecord end = read_checkpoint(folder / "run/checkpoint.h5").run;
+  EXPECT_EQ(end.time, 0.02);
+  EXPECT_EQ(end.steps, 2);
+}
+
+FluidSnapshot end_of(const std::string& folder) {
+  Checkpoint last = read_checkpoint(folder + "/checkpoint.h5");
+  Simulation simulation(build_setup(load_case(folder + "/case.toml")).setup);
+  simulation.restore(last.state);
+  FluidSnapshot snapshot;
+  simulation.read(snapshot);
+  return snapshot;
+}
+
+// What is written, and when, is no part of the flow.
+TEST(Run, OutputKeysChangeNoBitOfTheFlow) {
+  const TempFolder folder;
+  std::vector<FluidSnapshot> ends;
+  for (const std::vector<std::string>& keys :
+       {std::vector<std::string>{}, std::vector<std::string>{"output.interval=0.00037", "output.walls=false"},
+        std::vector<std::string>{"output.interval=0.02", "output.history_interval=0.00011",
+                                 "output.checkpoint_interval=0.001", "output.until=0.01"}}) {
+    RunOptions options = into(folder);
+    options.folder = folder / ("run" + std::to_string(ends.size()));
+    EXPECT_EQ(run_case(parse_case(tiny_case("0.01"), "tiny.toml", keys), options).status, RunStatus::done);
+    ends.push_back(end_of(options.folder));
+  }
+  ASSERT_EQ(ends[0].id.size(), 125u);
+  for (const FluidSnapshot& end : {ends[1], ends[2]}) {
+    EXPECT_EQ(end.time, ends[0].time);
+    EXPECT_EQ(end.id, ends[0].id);
+    for (std::size_t i = 0; i < end.id.size(); ++i) {
+      EXPECT_TRUE(end.position[i] == ends[0].position[i]) << i;
+      EXPECT_TRUE(end.velocity[i] == ends[0].velocity[i]) << i;
+      EXPECT_EQ(end.density[i], ends[0].density[i]) << i;
+    }
+  }
 }
 
 TEST(Run, EndsAtTheTimeAskedFor) {
