@@ -117,19 +117,21 @@ void for_images(const World& w, Vec a, Vec b, double reach, F f) {
       }
 }
 
-// Calls f(other particle, x_ij) for all others within the support.
+// Calls f(other particle, x_ij) for all others within the support, or `reach` times that.
 template <class F>
-void for_fluid_pairs(const World& w, std::size_t i, F f) {
+void for_fluid_pairs(const World& w, std::size_t i, F f, double reach = 1) {
   for (std::size_t j = 0; j < w.particles.size(); ++j)
     if (j != i)
-      for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) { f(w.particles[j], d); });
+      for_images(w, w.particles[i].x, w.particles[j].x, reach * w.support,
+                 [&](Vec d) { f(w.particles[j], d); });
 }
 
 template <class F>
-void for_wall_pairs(const World& w, std::size_t i, F f) {
+void for_wall_pairs(const World& w, std::size_t i, F f, double reach = 1) {
   for (const Wall& wall : w.walls)
-    for_images(w, w.particles[i].x, wall.x, w.support, [&](Vec d) { f(wall, d); });
+    for_images(w, w.particles[i].x, wall.x, reach * w.support, [&](Vec d) { f(wall, d); });
 }
+constexpr double reach_before = 1.05;  // of pairs that may have been within the support half a step ago
 
 // (1/r) dW/dr; zero for coincident particles, between which nothing acts.
 inline double slope_over_distance(const World& w, double r) {
@@ -158,12 +160,12 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
   };
   for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
     pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure));
-  });
+  }, reach_before);
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
     const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
     pair(d, w.wall_volume(), dt * p.v - j.moved, cut ? p.excess : j.pressure / c2,
          cut ? Vec{} : rest * (w.gravity - j.acceleration));
-  });
+  }, reach_before);
   return sum;
 }
 
@@ -195,13 +197,13 @@ inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
   for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
     const double share = p.fluid == j.fluid ? 1 : 2 * j.viscosity / (p.viscosity + j.viscosity);
     pair(d, share * share * j.volume, j.v, dt * (p.v - j.v));
-  });
+  }, reach_before);
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {  // i carries all that the pair dissipates
     const Vec half_way = d - 0.5 * (dt * p.v - j.moved);
     if (j.sticks)
       pair(d, 2 * no_slip_factor(w, j, half_way) * w.wall_volume(), j.v - dt * j.acceleration,
            dt * p.v - j.moved);
-  });
+  }, reach_before);
   return sum;
 }
 
