@@ -96,11 +96,27 @@ WallFace WallFaces::of(Vec3d p, std::size_t body, Vec3d open) const {
   if (chosen == feet.end())
     chosen = std::find_if(feet.begin(), feet.end(),
                           [&](const Foot& f) { return dot(open - f.point, f.normal) > 0; });
-  if (chosen == feet.end()) chosen = feet.begin();
-  if (chosen == feet.end()) return {};
-  WallFace face{std::max(depth(*chosen), 1e-3 * spacing_), chosen->normal, 0, {}};
-  add_back(p, body, feet, face);
+  if (chosen == feet.end())
+    chosen = std::find_if(feet.begin(), feet.end(), [&](const Foot& f) { return borders_open(f, body); });
+  WallFace face = chosen != feet.end()
+                      ? WallFace{std::max(depth(*chosen), 1e-3 * spacing_), chosen->normal, 0, {}}
+                      : towards(p, body, open);
+  if (face.depth > 0) add_back(p, body, feet, face);
   return face;
+}
+
+// Where no face fits, as behind steps smaller than a spacing: up to where the way to the open site leaves the
+// walls.
+WallFace WallFaces::towards(Vec3d p, std::size_t body, Vec3d open) const {
+  const double length = norm(open - p);
+  if (!(length > 0)) return {};
+  const Vec3d way = (open - p) * (1 / length);
+  double inside = 0, outside = length;
+  for (int halving = 0; halving < 20; ++halving) {
+    const double middle = 0.5 * (inside + outside);
+    (solids_.distance_to_company(p + middle * way, body) < 0 ? inside : outside) = middle;
+  }
+  return {std::max(outside, 1e-3 * spacing_), way, 0, {}};
 }
 
 void WallFaces::add_back(Vec3d p, std::size_t body, const std::vector<Foot>& feet, WallFace& face) const {
