@@ -9,6 +9,7 @@
 
 #include "backend/error.hpp"
 #include "host/region_fields.hpp"
+#include "host/wall_survey.hpp"
 
 namespace slagflow {
 namespace {
@@ -21,7 +22,7 @@ constexpr std::size_t room_check = 1 << 20;  // particles between looks at the m
 
 class Filler {
  public:
-  explicit Filler(const Case& c) : c_(c), lattice_(c), solids_(c) {
+  explicit Filler(const Case& c) : c_(c), lattice_(c), solids_(c), survey_(c, lattice_, solids_) {
     steps_ = steps_by_length();
     body_.assign(lattice_.size(), 0);
     flags_.assign(lattice_.size(), 0);
@@ -34,6 +35,7 @@ class Filler {
     for (std::size_t b = 0; b < solids_.count(); ++b)
       if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
     warn_of_empty_walls();
+    for (std::string& warning : survey_.warnings()) result_.warnings.push_back(std::move(warning));
     return std::move(result_);
   }
 
@@ -226,7 +228,7 @@ class Filler {
       const auto body = static_cast<std::uint8_t>(body_[at] - 1);
       const Vec3d p = lattice_.position(s);
       const WallFace face = faces.of(p, body, nearest_open(s, p));
-      if (face.depth == 0) return;
+      if (face.depth == 0) return survey_.dropped(p, body);
       check_room();
       out.position.push_back(p);
       out.normal.push_back(face.normal);
@@ -235,6 +237,7 @@ class Filler {
       out.back_depth.push_back(face.back_depth);
       out.body.push_back(body);
       check_face(s, p, face);
+      survey_.placed(p, body, face);
     });
   }
 
@@ -285,6 +288,7 @@ class Filler {
   const Case& c_;
   Lattice lattice_;
   WallSolids solids_;
+  WallSurvey survey_;
   std::vector<std::uint8_t> body_;   // per site: 0, or index of the wall + 1
   std::vector<std::uint8_t> flags_;  // per site
   std::set<std::tuple<std::size_t, int, int, long>> warned_;

@@ -72,7 +72,7 @@ TEST(GeometryWalls, FaceBesideTheLatticeKeepsItsDepthAndWarns) {
 TEST(GeometryWalls, NoWarningOnTheLatticeOrFarFromFluid) {
   Case c = unit_case();
   c.walls = {wall("floor", {{PlaneSpec{{0, 0, 4}, {0, 0, 1}}, false}}),
-             wall("lid", {box({0, 0, 9.3}, {10, 10, 11})})};
+             wall("lid", {box({0, 0, 9.3}, {10, 10, 13})})};
   EXPECT_TRUE(fill(c).warnings.empty());
 }
 
