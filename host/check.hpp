@@ -36,6 +36,7 @@ struct CaseCheck {
   std::vector<FluidNumbers> fluids;  // numbers that need a speed are not-a-number where there is none
   double sound_speed = 0, mach = 0;  // [m/s], U / sound speed
   double viscosity_correction = 0;   // C of equation (7)
+  std::string exits;                 // of the domain, and what becomes of fluid that leaves elsewhere
   double memory = 0;                 // [bytes]
   double run_time = 0;               // [s]
   std::vector<std::string> warnings;
