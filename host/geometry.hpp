@@ -102,6 +102,7 @@ class WallFaces {
   WallFace of(Vec3d p, std::size_t body, Vec3d open) const;
 
  private:
+  Vec3d wrapped(Vec3d p) const;
   WallFace towards(Vec3d p, std::size_t body, Vec3d open) const;
   std::vector<Foot> feet_by_depth(Vec3d p, std::size_t body) const;
   void add_back(Vec3d p, std::size_t body, const std::vector<Foot>& feet, WallFace& face) const;

@@ -211,6 +211,18 @@ TEST(GeometryWalls, OpenSpaceWrapsRoundAPeriodicAxis) {
   expect_wall(walls, {4.5, 5.5, 5.5}, 0.5, {1, 0, 0});
 }
 
+// Its face towards -x lies beyond the period, which cuts it: no site goes without a particle.
+TEST(GeometryWalls, WallLargerThanThePeriodEndsAtItsFace) {
+  Case c = unit_case();
+  c.domain.periodic = {true, false, false};
+  c.regions[0].shapes = {box({9, 4, 4}, {10, 6, 6})};
+  c.walls = {wall("most", {box({-20, -20, -20}, {8, 30, 30})})};
+  const Filling filling = fill(c);
+  expect_wall(filling.walls, {0.5, 5.5, 5.5}, 0.5, {-1, 0, 0});
+  expect_wall(filling.walls, {7.5, 5.5, 5.5}, 0.5, {1, 0, 0});
+  EXPECT_EQ(filling.walls.position.size(), 6u * 16u * 16u);
+}
+
 TEST(GeometryWalls, TwoDimensionsHaveOneLayer) {
   Case c = unit_case();
   c.dimensions = 2;
