@@ -69,6 +69,23 @@ TEST(GeometryWalls, FaceBesideTheLatticeKeepsItsDepthAndWarns) {
               testing::HasSubstr("wall 'floor': the face z = 3.8 m lies 0.20 spacings off"));
 }
 
+TEST(GeometryWalls, OfManyFacesBesideTheLatticeThreeAreTold) {
+  Case c = unit_case();
+  c.regions[0].shapes = {box({0, 4, 2}, {10, 6, 9})};
+  WallSpec stairs = wall("stairs", {});
+  for (int k = 0; k < 5; ++k) {
+    const ShapeSpec block = box({-20, -20, -20}, {2.0 * k + 2, 30, 5.8 - 0.7 * k});
+    stairs.shapes.push_back(block);
+  }
+  c.walls = {stairs};
+  const std::vector<std::string> warnings = fill(c).warnings;
+  const auto told = testing::HasSubstr("spacings off the lattice; ");
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [&](const std::string& w) { return testing::Value(w, told); }),
+            3);
+  EXPECT_THAT(warnings, testing::Contains("wall 'stairs': faces off the lattice besides these: 1"));
+}
+
 TEST(GeometryWalls, NoWarningOnTheLatticeOrFarFromFluid) {
   Case c = unit_case();
   c.walls = {wall("floor", {{PlaneSpec{{0, 0, 4}, {0, 0, 1}}, false}}),
