@@ -21,8 +21,9 @@ struct InWalls {
 
 class Losses {
  public:
-  // Throws InputError when an STL file cannot be read.
+  // Of a case that outlives it. Throws InputError when an STL file cannot be read.
   explicit Losses(const Case& c);
+  explicit Losses(Case&&) = delete;
 
   // Looks at the particles that wall particles see below their faces; those too deep in walls to see any are
   // found at the end only.

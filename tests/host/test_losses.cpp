@@ -77,6 +77,30 @@ TEST(Losses, FindsInASimulationWhatALookAtAllFinds) {
   }
 }
 
+// A floor that rises and turns by 0.04 spacings and 2 degrees a step, with two particles in it from the
+// start.
+TEST(Losses, FollowAWallThatMoves) {
+  const Case c = parsed(tiny_case(), {R"(wall.0.motion={type="constant", velocity=[0, 0, 0.2], )"
+                                      R"(angular_velocity=[0, 80, 0], center=[0.005, 0.005, 0]})"});
+  BuiltCase built = build_setup(c);
+  built.setup.limits.max_compression = 1;
+  built.setup.particles.position[0] = {0.003, 0.003, -0.9 * spacing};
+  built.setup.particles.position[7] = {0.007, 0.005, -1.2 * spacing};
+  Simulation simulation(built.setup);
+  Losses some(c), all(c);
+  for (int step = 0; step < 8; ++step) {
+    some.look(simulation), all.look_at_all(simulation);
+    EXPECT_EQ(some.in_walls().now, all.in_walls().now) << step;
+    EXPECT_EQ(some.in_walls().deepest, all.in_walls().deepest) << step;
+    simulation.step();
+  }
+  EXPECT_GE(all.in_walls().most, 2);
+  const Case still = parsed(tiny_case());
+  Losses at_rest(still);
+  at_rest.look_at_all(simulation);
+  EXPECT_NE(at_rest.in_walls().deepest, all.in_walls().deepest);
+}
+
 TEST(Losses, WarnsOfEachFaceThatIsNoExit) {
   const Case c = parsed(tiny_case(), {R"(domain.exits=["-z"])"});
   const Losses losses(c);
