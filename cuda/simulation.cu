@@ -55,6 +55,7 @@ Simulation::State::State(const SimulationSetup& s)
       diagnostics(context),
       watch(context, setup),
       planes(s),
+      below_faces(context),
       step_graph(context, "steps"),
       yielded(context, "yielded"),
       side_stream(context) {

@@ -143,7 +143,11 @@ class Simulation {
   double time() const;       // [s]
   double time_step() const;  // [s] of the last step; of the coming one before the first
   std::int64_t steps() const;
+  std::int64_t particles() const;        // fluid, in the domain as of the last build of the lists
+  std::vector<Vec3d> positions() const;  // [m] of the fluid, in no order
   Totals totals();
+  // Where fluid particles are that may be inside walls, and may be beside an edge (penetration.hpp) [m].
+  std::vector<Vec3d> below_wall_faces();
   SolveReport last_solve() const;
   SolverTotals solver_totals() const;
   double neighbours_mean() const;  // fluid and wall particles within the support radius, itself not counted

@@ -12,6 +12,7 @@
 #include "measures.hpp"
 #include "neighbours.hpp"
 #include "ordering.hpp"
+#include "penetration.hpp"
 #include "simulation.hpp"
 #include "surface_tension.hpp"
 #include "viscous.hpp"
@@ -47,6 +48,7 @@ struct Simulation::State {
   DiagnosticScratch diagnostics;
   Watch watch;
   PlaneCounters planes;
+  BelowFaces below_faces;
 
   double time = 0, dt = 0, full_dt = 0, displacement = 0, capillary_work = 0;
   double last_dt = 0;  // [s] that the last step took; 0 before the first

@@ -28,6 +28,28 @@ void check_periodic(const Case& c, CaseProblems& problems) {
   }
 }
 
+// Nothing leaves through the faces of a periodic axis, nor along y with two dimensions.
+void check_exits(const Case& c, CaseProblems& problems) {
+  std::string allowed;
+  for (std::size_t face = 0; face < c.exits.size(); ++face)
+    if (!c.domain.periodic[face / 2] && !(c.dimensions == 2 && face / 2 == 1))
+      allowed += (allowed.empty() ? "" : ", ") + direction_names[face];
+  if (allowed.empty()) allowed = "none";
+  for (std::size_t face = 0; face < c.exits.size(); ++face) {
+    if (!c.exits[face]) continue;
+    const std::string value = "value \"" + direction_names[face] + "\"";
+    if (c.domain.periodic[face / 2])
+      problems.add("domain.exits", value + " is a face of the periodic axis " +
+                                       axis_name(static_cast<int>(face / 2)) + ": allowed: " + allowed);
+    else if (c.dimensions == 2 && face / 2 == 1)
+      problems.add("domain.exits", value + " with two dimensions: allowed: " + allowed);
+    else if (c.domain.departure == Departure::stop)
+      return problems.add("domain.exits", value +
+                                              " with domain.departure = \"stop\", which ends the run "
+                                              "when a particle leaves: allowed: departure = \"remove\"");
+  }
+}
+
 std::string measure_key(std::size_t index) { return "measure." + std::to_string(index); }
 
 // The line of a front, which a periodic axis does not have, or the plane of a flow rate.
@@ -203,6 +225,7 @@ void check_scale(const Case& c, CaseProblems& problems) {
 void check_across_tables(const Case& c, CaseProblems& problems) {
   check_two_dimensions(c, problems);
   check_periodic(c, problems);
+  check_exits(c, problems);
   check_measures(c, problems);
   check_stop(c, problems);
   check_tension_limits(c, problems);

@@ -27,6 +27,18 @@ constexpr std::size_t most_names = 255;  // particles keep the index of their fl
 
 bool plain(unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; }
 
+void read_exits(CaseTable& t, Case& c) {
+  std::vector<std::string> exits;
+  t.read("exits", exits);
+  for (const std::string& face : exits) {
+    const auto found = std::find(direction_names.begin(), direction_names.end(), face);
+    if (found == direction_names.end())
+      t.problem("exits", "value \"" + face + "\" is not a face: allowed: " + join(direction_names));
+    else
+      c.exits[static_cast<std::size_t>(found - direction_names.begin())] = true;
+  }
+}
+
 void read_domain(CaseTable t, Case& c) {
   const bool low = t.read("min", c.domain.lower, any_number("m"), Need::required);
   const bool high = t.read("max", c.domain.upper, any_number("m"), Need::required);
@@ -47,6 +59,7 @@ void read_domain(CaseTable t, Case& c) {
       c.domain.periodic[static_cast<std::size_t>(found - axis_names.begin())] = true;
   }
   t.read_enum("departure", c.domain.departure, departure_names);
+  read_exits(t, c);
   t.finish();
 }
 

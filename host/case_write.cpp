@@ -86,7 +86,14 @@ void write_frame(std::ostream& out, const Case& c) {
     out << separator << quoted(axis_names[k]);
     separator = ", ";
   }
-  out << "]\ndeparture = " << name_of(departure_names, c.domain.departure) << "\n\n";
+  out << "]\ndeparture = " << name_of(departure_names, c.domain.departure) << "\nexits = [";
+  separator = "";
+  for (std::size_t face = 0; face < c.exits.size(); ++face) {
+    if (!c.exits[face]) continue;
+    out << separator << quoted(direction_names[face]);
+    separator = ", ";
+  }
+  out << "]\n\n";
 }
 
 void write_fluids(std::ostream& out, const Case& c) {

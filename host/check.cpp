@@ -11,6 +11,7 @@
 #include "backend/error.hpp"
 #include "constants.hpp"
 #include "host/geometry.hpp"
+#include "host/losses.hpp"
 #include "host/toml_reader.hpp"
 
 namespace slagflow {
@@ -155,6 +156,13 @@ void add_warnings(CaseCheck& check, const BuiltCase& built) {
     check.warnings.push_back("the fluid is less than 4 particles deep or wide: the resolution is too coarse");
 }
 
+std::string exits_text(const Case& c) {
+  if (c.domain.departure == Departure::stop) return "none: the run ends with an error when a particle leaves";
+  return exits_of(c) + ": what leaves through " +
+         (c.exits == std::array<bool, 6>{} ? "a face" : "another face") +
+         " of the domain is lost, beyond 0.1 % with a warning";
+}
+
 std::string duration(double seconds) {
   if (seconds < 1) return "under a second";
   if (seconds < 120) return format("%.0f s", seconds);
@@ -197,6 +205,7 @@ CaseCheck check_case(const BuiltCase& built) {
   add_speed(check, built);
   add_numbers(check, setup);
   check.mach = check.speed / check.sound_speed;
+  check.exits = exits_text(built.resolved);
   const auto fluid = static_cast<double>(check.fluid_particles);
   check.memory = memory_of(setup);
   check.run_time = check.steps * fluid / particle_steps_per_second;
@@ -222,6 +231,7 @@ std::string to_text(const CaseCheck& c) {
   for (const std::string& line : c.sound_speeds) text += "                 " + line + "\n";
   text += format("viscosity        corrected by %.4f for the bias of the operator at this support ratio\n",
                  c.viscosity_correction);
+  text += "exits            " + c.exits + "\n";
   text += format("memory           about %.3g MB\n", c.memory / 1e6);
   text += format("run time         roughly %s on two CPU cores (%.2g particle-steps/s)\n",
                  duration(c.run_time).c_str(), particle_steps_per_second);

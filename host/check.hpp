@@ -37,6 +37,7 @@ struct CaseCheck {
   double sound_speed = 0, mach = 0;       // [m/s], U / sound speed
   std::vector<std::string> sound_speeds;  // a line for each term of the automatic one
   double viscosity_correction = 0;        // C of equation (7)
+  std::string exits;                      // of the domain, and what becomes of fluid that leaves elsewhere
   double memory = 0;                      // [bytes]
   double run_time = 0;                    // [s]
   std::vector<std::string> warnings;

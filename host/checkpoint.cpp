@@ -15,25 +15,27 @@ namespace {
 using hdf5::File;
 using hdf5::Handle;
 
-constexpr const char* format_name = "slagflow checkpoint 1";
+constexpr const char* format_name = "slagflow checkpoint 2";
 constexpr std::array<char, 8> seal_mark{'S', 'L', 'A', 'G', 'S', 'E', 'A', 'L'};
 constexpr std::size_t seal_bytes = 16;
 
 using Real64 = double RunRecord::*;
 using Whole = std::int64_t RunRecord::*;
-constexpr std::array<std::pair<const char*, Real64>, 6> reals{
+constexpr std::array<std::pair<const char*, Real64>, 7> reals{
     {{"time", &RunRecord::time},
      {"next_snapshot", &RunRecord::next_snapshot},
      {"next_history", &RunRecord::next_history},
      {"wall_time", &RunRecord::wall_time},
      {"setup_time", &RunRecord::setup_time},
-     {"max_density_error", &RunRecord::max_density_error}}};
-constexpr std::array<std::pair<const char*, Whole>, 10> wholes{
+     {"max_density_error", &RunRecord::max_density_error},
+     {"deepest_in_wall", &RunRecord::deepest_in_wall}}};
+constexpr std::array<std::pair<const char*, Whole>, 11> wholes{
     {{"steps", &RunRecord::steps},
      {"recorded_step", &RunRecord::recorded_step},
      {"snapshot_step", &RunRecord::snapshot_step},
      {"particles_now", &RunRecord::particles_now},
      {"particle_steps", &RunRecord::particle_steps},
+     {"most_in_walls", &RunRecord::most_in_walls},
      {"history_lines", &RunRecord::history_lines},
      {"history_bytes", &RunRecord::history_bytes},
      {"snapshots", &RunRecord::snapshots},
@@ -72,8 +74,8 @@ RunRecord record_of(const SavedState& arrays, const std::string& path) {
   };
   for (const auto& [name, member] : reals) take(name, &(run.*member));
   for (const auto& [name, member] : wholes) take(name, &(run.*member));
-  for (const std::int64_t count : {run.steps, run.particles_now, run.particle_steps, run.history_lines,
-                                   run.history_bytes, run.snapshots, run.resumes})
+  for (const std::int64_t count : {run.steps, run.particles_now, run.particle_steps, run.most_in_walls,
+                                   run.history_lines, run.history_bytes, run.snapshots, run.resumes})
     if (count < 0) throw Error(path + ": a count of the run is negative");
   const auto take_all = [&](const char* name, auto& values) {
     const SavedArray& array = find(arrays, name, path);

@@ -22,11 +22,13 @@ struct RunRecord {
   double next_snapshot = 0, next_history = 0;  // [s] when the outputs are due
   double wall_time = 0, setup_time = 0;        // [s], over all parts of the run
   double max_density_error = 0;                // largest so far
+  double deepest_in_wall = 0;                  // [spacings], of any particle at any look
   std::int64_t steps = 0;                      // of the simulation
   std::int64_t recorded_step = -1;             // of the last line of the history
   std::int64_t snapshot_step = -1;             // of the last snapshot
   std::int64_t particles_now = 0;              // at the last line of the history
   std::int64_t particle_steps = 0;             // see RunCounts
+  std::int64_t most_in_walls = 0;              // see InWalls
   std::int64_t history_lines = 0;              // without the header
   std::int64_t history_bytes = 0;              // of the file up to the end of the last line
   std::int64_t snapshots = 0;                  // time steps in particles.vtkhdf and in walls.vtkhdf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -10,19 +11,21 @@
 #include "backend/error.hpp"
 #include "host/region_fields.hpp"
 #include "host/start_pressure.hpp"
+#include "host/wall_survey.hpp"
 
 namespace slagflow {
 namespace {
 
 constexpr double wall_gap = 0.25;          // [spacings] that fluid keeps from a wall at the start
 constexpr double off_lattice = 0.05;       // [spacings] that a face may lie beside its place
+constexpr std::size_t faces_told = 3;      // of a wall, that lie beside theirs; of more the number
 constexpr double bytes_per_particle = 89;  // position, normals, depths, index of a wall particle
 constexpr std::size_t most_particles = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t room_check = 1 << 20;  // particles between looks at the memory
 
 class Filler {
  public:
-  explicit Filler(const Case& c) : c_(c), lattice_(c), solids_(c) {
+  explicit Filler(const Case& c) : c_(c), lattice_(c), solids_(c), survey_(c, lattice_, solids_) {
     steps_ = steps_by_length();
     body_.assign(lattice_.size(), 0);
     flags_.assign(lattice_.size(), 0);
@@ -34,7 +37,9 @@ class Filler {
     place_walls([&](std::size_t body) { return !solids_.moves(body); });
     for (std::size_t b = 0; b < solids_.count(); ++b)
       if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
+    warn_of_more_faces();
     warn_of_empty_walls();
+    for (std::string& warning : survey_.warnings()) result_.warnings.push_back(std::move(warning));
     const auto sites = std::make_shared<StartSites>(lattice_, std::move(body_), std::move(site_));
     result_.fluid.pressure = start_pressure(c_, *sites, result_.fluid, region_);
     result_.sites = sites;
@@ -212,7 +217,7 @@ class Filler {
       const auto body = static_cast<std::uint8_t>(body_[at] - 1);
       const Vec3d p = lattice_.position(s);
       const WallFace face = faces.of(p, body, nearest_open(s, p));
-      if (face.depth == 0) return;
+      if (face.depth == 0) return survey_.dropped(p, body);
       check_room();
       out.position.push_back(p);
       out.normal.push_back(face.normal);
@@ -221,6 +226,7 @@ class Filler {
       out.back_depth.push_back(face.back_depth);
       out.body.push_back(body);
       check_face(s, p, face);
+      survey_.placed(p, body, face);
     });
   }
 
@@ -235,7 +241,7 @@ class Filler {
       if (!fluid_beyond(s, axis, sign)) return;
       const long rounded = std::lround(1000 * coordinate / lattice_.spacing());
       const std::size_t body = body_[lattice_.linear(s)] - std::size_t{1};
-      if (!warned_.emplace(body, axis, sign, rounded).second) return;
+      if (!warned_.emplace(body, axis, sign, rounded).second || ++faces_off_[body] > faces_told) return;
       char text[160];
       std::snprintf(text, sizeof text, "the face %c = %.6g m lies %.2f spacings off the lattice", "xyz"[axis],
                     coordinate, std::abs(depth - 0.5));
@@ -243,6 +249,14 @@ class Filler {
                                  "; faces that border the fluid should be a whole number of spacings from "
                                  "resolution.origin");
     }
+  }
+
+  void warn_of_more_faces() {
+    for (const auto& [body, faces] : faces_off_)
+      if (faces > faces_told)
+        result_.warnings.push_back(
+            "wall '" + c_.walls[body].name +
+            "': faces off the lattice besides these: " + std::to_string(faces - faces_told));
   }
 
   bool fluid_beyond(SiteIndex s, int axis, int sign) const {
@@ -271,11 +285,13 @@ class Filler {
   const Case& c_;
   Lattice lattice_;
   WallSolids solids_;
+  WallSurvey survey_;
   std::vector<std::uint8_t> body_;     // per site: 0, or index of the wall + 1
   std::vector<std::uint8_t> flags_;    // per site
   std::vector<std::size_t> site_;      // of each fluid particle
   std::vector<std::uint32_t> region_;  // of each fluid particle
   std::set<std::tuple<std::size_t, int, int, long>> warned_;
+  std::map<std::size_t, std::size_t> faces_off_;  // of each wall: off the lattice
   std::vector<SiteIndex> steps_;
   Filling result_;
 };

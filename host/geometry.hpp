@@ -92,7 +92,8 @@ struct WallFace {
 };
 
 // Finds the face a wall site belongs to: the nearest that borders the open. Where the open is nearer than
-// that, behind a concave corner, the nearest plane that continues a face on the way to it. Of two faces
+// that, behind a concave corner, the nearest plane that continues a face on the way to it, or else one across
+// that way. Of two faces
 // equally near, as behind an edge, the one that carries more of the fluid's weight. A site in a plate thinner
 // than its particle layers also gets the opposite face.
 class WallFaces {
@@ -102,6 +103,8 @@ class WallFaces {
   WallFace of(Vec3d p, std::size_t body, Vec3d open) const;
 
  private:
+  Vec3d wrapped(Vec3d p) const;
+  WallFace towards(Vec3d p, std::size_t body, Vec3d open) const;
   std::vector<Foot> feet_by_depth(Vec3d p, std::size_t body) const;
   void add_back(Vec3d p, std::size_t body, const std::vector<Foot>& feet, WallFace& face) const;
   bool borders_open(const Foot& foot, std::size_t body) const;

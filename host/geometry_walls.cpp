@@ -57,18 +57,22 @@ WallFaces::WallFaces(const Case& c, const Lattice& lattice, const WallSolids& so
   if (c.dimensions == 2) domain_.lower.y = -c.spacing, domain_.upper.y = c.spacing;
 }
 
+Vec3d WallFaces::wrapped(Vec3d p) const {
+  for (int k = 0; k < 3; ++k) {
+    const double lower = domain_.lower[k], extent = domain_.upper[k] - lower;
+    if (domain_.periodic[static_cast<std::size_t>(k)]) p[k] -= extent * std::floor((p[k] - lower) / extent);
+  }
+  return p;
+}
+
 // A point just outside of the surface, brought into the domain, must be in no wall. So faces beyond the
 // domain do not count, and a wall cut off by a periodic face goes on behind it.
 bool WallFaces::borders_open(const Foot& foot, std::size_t body) const {
   const double nudge = 1e-3 * spacing_;
-  Vec3d p = foot.point + nudge * foot.normal;
-  for (int k = 0; k < 3; ++k) {
-    const double lower = domain_.lower[k], upper = domain_.upper[k];
-    if (domain_.periodic[static_cast<std::size_t>(k)])
-      p[k] -= (upper - lower) * std::floor((p[k] - lower) / (upper - lower));
-    else
-      p[k] = std::clamp(p[k], lower + nudge, upper - nudge);
-  }
+  Vec3d p = wrapped(foot.point + nudge * foot.normal);
+  for (int k = 0; k < 3; ++k)
+    if (!domain_.periodic[static_cast<std::size_t>(k)])
+      p[k] = std::clamp(p[k], domain_.lower[k] + nudge, domain_.upper[k] - nudge);
   return solids_.distance_to_company(p, body) >= 0;
 }
 
@@ -96,11 +100,27 @@ WallFace WallFaces::of(Vec3d p, std::size_t body, Vec3d open) const {
   if (chosen == feet.end())
     chosen = std::find_if(feet.begin(), feet.end(),
                           [&](const Foot& f) { return dot(open - f.point, f.normal) > 0; });
-  if (chosen == feet.end()) chosen = feet.begin();
-  if (chosen == feet.end()) return {};
-  WallFace face{std::max(depth(*chosen), 1e-3 * spacing_), chosen->normal, 0, {}};
-  add_back(p, body, feet, face);
+  if (chosen == feet.end())
+    chosen = std::find_if(feet.begin(), feet.end(), [&](const Foot& f) { return borders_open(f, body); });
+  WallFace face = chosen != feet.end()
+                      ? WallFace{std::max(depth(*chosen), 1e-3 * spacing_), chosen->normal, 0, {}}
+                      : towards(p, body, open);
+  if (face.depth > 0) add_back(p, body, feet, face);
   return face;
+}
+
+// Where no face fits, as behind steps smaller than a spacing or where a periodic face cuts a wall: up to
+// where the way to the open site leaves the walls.
+WallFace WallFaces::towards(Vec3d p, std::size_t body, Vec3d open) const {
+  const double length = norm(open - p);
+  if (!(length > 0)) return {};
+  const Vec3d way = (open - p) * (1 / length);
+  double inside = 0, outside = length;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (inside + outside);
+    (solids_.distance_to_company(wrapped(p + middle * way), body) < 0 ? inside : outside) = middle;
+  }
+  return {std::max(outside, 1e-3 * spacing_), way, 0, {}};
 }
 
 void WallFaces::add_back(Vec3d p, std::size_t body, const std::vector<Foot>& feet, WallFace& face) const {

@@ -49,7 +49,8 @@ Run::Run(BuiltCase built, std::string folder, Log& log)
       geometry_(checksum_of(built_.setup)),
       snapshot_due_(built_.resolved.output.interval),
       history_due_(built_.resolved.output.history_interval),
-      measures_(built_.resolved, built_.setup) {
+      measures_(built_.resolved, built_.setup),
+      losses_(built_.resolved) {
   counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
   counts_.walls = static_cast<std::int64_t>(built_.setup.walls.position.size());
   particles_now_ = counts_.particles_start;
@@ -62,6 +63,7 @@ void Run::go_on_from(Checkpoint checkpoint) {
     throw Error(folder_ +
                 ": the case gives other particles at the start than it did: have its STL files changed?");
   measures_.restore(run.measures);
+  losses_.restore(run.most_in_walls, run.deepest_in_wall);
   snapshot_due_.restore(run.next_snapshot);
   history_due_.restore(run.next_history);
   recorded_step_ = run.recorded_step;
@@ -92,6 +94,7 @@ RunOutcome Run::execute() {
   write_summary();
   if (simulation_) log_.info("end: " + progress_line(progress(), counts_.wall_time));
   outcome_.results = measures_.lines();
+  tell_losses();
   return std::move(outcome_);
 }
 
@@ -143,11 +146,19 @@ RunStatus Run::loop() {
       log_.warning("interrupted at " + std::to_string(time) + " s");
       return RunStatus::interrupted;
     }
+    if (simulation.particles() == 0) return end_early();
     if (checkpoint_due()) try_to_save_checkpoint();
     simulation.step();
     counts_.particle_steps += particles_now_;
     shown.update(progress());
   }
+}
+
+// Nothing brings fluid into a domain.
+RunStatus Run::end_early() {
+  ended_early_ = "all fluid has left the domain and none can come";
+  log_.info(ended_early_ + ": ends at " + std::to_string(simulation_->time()) + " s");
+  return RunStatus::done;
 }
 
 // A line of the history; the measures are taken from the same totals.
@@ -157,6 +168,7 @@ void Run::record() {
   const Totals totals = simulation_->totals();
   particles_now_ = totals.particles;
   counts_.max_density_error = std::max(counts_.max_density_error, totals.max_density_error);
+  losses_.look(*simulation_);
   std::vector<double> values = history_values(*simulation_, totals);
   const auto read = [this]() -> const FluidSnapshot& {
     simulation_->read(measured_);
@@ -198,6 +210,8 @@ RunRecord Run::run_record() {
   run.particles_now = particles_now_;
   run.particle_steps = counts_.particle_steps;
   run.max_density_error = counts_.max_density_error;
+  run.most_in_walls = losses_.in_walls().most;
+  run.deepest_in_wall = losses_.in_walls().deepest;
   run.wall_time = wall_before_ + seconds_between(started_, Clock::now());
   run.setup_time = counts_.setup_time;
   run.resumes = resumes_;
@@ -233,9 +247,26 @@ void Run::try_to_save_checkpoint() {
 void Run::end_outputs() {
   record();
   take_snapshot();
+  losses_.look_at_all(*simulation_);
   snapshots_->close();
   provenance_.ended_utc = now_utc();
   snapshots_->describe(provenance_.attributes());
+}
+
+void Run::tell_losses() {
+  if (!ended_early_.empty()) outcome_.results.push_back("ended early: " + ended_early_);
+  if (!simulation_) return;
+  try {
+    const Totals totals = simulation_->totals();
+    for (const std::string& line : losses_.lines(totals, counts_.particles_start)) {
+      log_.info(line);
+      outcome_.results.push_back(line);
+    }
+    for (const std::string& warning : losses_.warnings(totals, counts_.particles_start))
+      log_.warning(warning);
+  } catch (const std::exception& error) {
+    log_.warning(std::string("the losses are not known: ") + error.what());
+  }
 }
 
 void Run::fail(const std::string& reason) {
@@ -261,6 +292,7 @@ void Run::write_summary() {
   Json summary = summary_of_case(built_.resolved, provenance_, counts_);
   try {
     if (simulation_) add_results(summary, *simulation_, counts_);
+    if (simulation_) losses_.add_to(summary, simulation_->totals());
   } catch (const std::exception& error) {
     log_.warning(std::string("the summary lacks the results: ") + error.what());
   }
@@ -268,6 +300,7 @@ void Run::write_summary() {
   summary.set("status", names[static_cast<int>(outcome_.status)]).set("resumes", resumes_);
   summary.set("ended_utc", provenance_.ended_utc.empty() ? now_utc() : provenance_.ended_utc);
   if (outcome_.status == RunStatus::failed) summary.set("reason", outcome_.reason);
+  if (!ended_early_.empty()) summary.set("ended_early", ended_early_);
   summary.set("measures", measures_.summary());
   try {
     write_file(folder_ + "/summary.json", summary.text() + "\n");

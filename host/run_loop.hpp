@@ -8,6 +8,7 @@
 
 #include "host/checkpoint_store.hpp"
 #include "host/history.hpp"
+#include "host/losses.hpp"
 #include "host/measures.hpp"
 #include "host/profiles.hpp"
 #include "host/progress.hpp"
@@ -49,6 +50,7 @@ class Run {
   void start();
   void open_outputs();
   RunStatus loop();
+  RunStatus end_early();
   void record();
   void take_snapshot();
   bool checkpoint_due();
@@ -56,6 +58,7 @@ class Run {
   void try_to_save_checkpoint();
   RunRecord run_record();
   void end_outputs();
+  void tell_losses();
   void save_last_state();
   void fail(const std::string& reason);
   void write_summary();
@@ -79,6 +82,8 @@ class Run {
   std::int64_t recorded_step_ = -1, snapshot_step_ = -1, particles_now_ = 0;
   FluidSnapshot measured_;  // buffer of the measures
   Measures measures_;
+  Losses losses_;
+  std::string ended_early_;  // why, if it did
   std::optional<Checkpoint> resumed_;
   std::optional<Simulation> simulation_;
   std::optional<HistoryFile> history_;

@@ -158,8 +158,9 @@ struct MakeForm {
 
 std::shared_ptr<const Form> make_form(const ShapeSpec& spec) { return std::visit(MakeForm{}, spec.form); }
 
-void Shape::feet(Vec3d p, std::vector<Foot>& feet) const {
+void Shape::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {
   sign_ > 0 ? form_->inner_feet(p, feet) : form_->outer_feet(p, feet);
+  form_->further_feet(p, sign_, reach, feet);
 }
 
 Solid::Solid(std::vector<Shape> shapes, const std::vector<Shape>& subtract) : shapes_(std::move(shapes)) {
@@ -176,9 +177,9 @@ double Solid::distance(Vec3d p) const {
 void Solid::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {
   const auto near = [&](double distance) { return distance <= 0 && distance >= -reach; };
   for (const Shape& shape : shapes_)
-    if (near(shape.distance(p))) shape.feet(p, feet);
+    if (near(shape.distance(p))) shape.feet(p, reach, feet);
   for (const Shape& limit : limits_)
-    if (near(limit.distance(p))) limit.feet(p, feet);
+    if (near(limit.distance(p))) limit.feet(p, reach, feet);
 }
 
 }  // namespace slagflow

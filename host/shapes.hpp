@@ -25,6 +25,10 @@ class Form {
   virtual void inner_feet(Vec3d p, std::vector<Foot>& feet) const = 0;
   // For p outside, when all that is outside is solid: the faces that p is beyond, normals into the form.
   virtual void outer_feet(Vec3d p, std::vector<Foot>& feet) const = 0;
+  // Of a form whose feet above are the nearest only: all points within `reach` [m] straight below p on faces
+  // whose normals, times `side`, lead there.
+  virtual void further_feet(Vec3d /*p*/, double /*side*/, double /*reach*/,
+                            std::vector<Foot>& /*feet*/) const {}
 };
 
 // Makes the form of a shape. Throws InputError when an STL file is not usable.
@@ -36,8 +40,8 @@ class Shape {
   explicit Shape(const ShapeSpec& spec) : Shape(make_form(spec), spec.outside) {}
 
   double distance(Vec3d p) const { return sign_ * form_->distance(p); }
-  // For p inside: candidates, with normals out of the shape.
-  void feet(Vec3d p, std::vector<Foot>& feet) const;
+  // For p inside: candidates within `reach` [m], and perhaps others, with normals out of the shape.
+  void feet(Vec3d p, double reach, std::vector<Foot>& feet) const;
   Shape complement() const { return Shape(form_, sign_ > 0); }
 
  private:

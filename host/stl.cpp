@@ -11,6 +11,7 @@
 #include <map>
 
 #include "backend/error.hpp"
+#include "host/stl_bodies.hpp"
 
 namespace slagflow {
 namespace {
@@ -132,8 +133,6 @@ std::vector<Triangle> read_ascii(const std::string& text, const std::string& fil
   return triangles;
 }
 
-using Corners = std::array<std::size_t, 3>;
-
 // Gives corners at the same place the same number. Places closer than a millionth of the surface's extent
 // count as one, since writers round.
 std::vector<Corners> weld(const std::vector<Triangle>& triangles) {
@@ -187,13 +186,6 @@ void check_closed(const std::vector<Corners>& triangles, const std::string& name
                      " edges: allowed: corners in the same sense all over the surface");
 }
 
-double enclosed_volume(const std::vector<Triangle>& triangles) {
-  const Vec3d base = triangles.front()[0];
-  double volume = 0;
-  for (const Triangle& t : triangles) volume += dot(t[0] - base, cross(t[1] - base, t[2] - base)) / 6;
-  return volume;
-}
-
 }  // namespace
 
 std::vector<Triangle> read_stl(const std::string& file) {
@@ -225,10 +217,7 @@ std::vector<Triangle> closed_surface(const std::vector<Triangle>& triangles, con
   }
   if (surface.empty()) throw InputError(name + ": no triangle has an area");
   check_closed(corners, name);
-  const double volume = enclosed_volume(surface);
-  if (volume == 0) throw InputError(name + ": the surface encloses no volume");
-  if (volume < 0)
-    for (Triangle& t : surface) std::swap(t[1], t[2]);
+  turn_bodies_outward(surface, corners, name);
   return surface;
 }
 

@@ -95,6 +95,22 @@ class Surface final : public Form {
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override { add_feet(p, 1, feet); }
   void outer_feet(Vec3d p, std::vector<Foot>& feet) const override { add_feet(p, -1, feet); }
 
+  // The nearest face may border no open space, as where a body ends at the domain or touches another; and a
+  // plate has an opposite face.
+  void further_feet(Vec3d p, double side, double reach, std::vector<Foot>& feet) const override {
+    walk(
+        0, [&](const Bounds& b) { return b.squared_distance(p) <= reach * reach; },
+        [&](const Triangle& t) {
+          const Vec3d area = cross(t[1] - t[0], t[2] - t[0]);
+          if (!(norm(area) > 0)) return;
+          const Vec3d normal = area * (side / norm(area));
+          const double depth = dot(t[0] - p, normal);
+          if (depth < 0 || depth > reach) return;
+          const Vec3d foot = p + depth * normal;
+          if (norm(nearest_in(t, p) - foot) < 1e-5 * far_) feet.push_back({foot, normal});
+        });
+  }
+
  private:
   static constexpr std::size_t leaf_size = 4;
   struct Node {
@@ -183,11 +199,14 @@ class Surface final : public Form {
   }
 
   // Planes of all triangles that are nearest: at an edge or corner there are several, and the plane that
-  // continues a face is what a wall particle behind it needs. side: +1 from inside, -1 from outside.
+  // continues a face is what a wall particle behind it needs. Where p is beyond all these planes, as it may
+  // be behind a corner at which the surface is a saddle, the way to the nearest point stands for them.
+  // side: +1 from inside, -1 from outside.
   void add_feet(Vec3d p, double side, std::vector<Foot>& feet) const {
     const double nearest = squared_distance(p);
     const double limit = nearest * (1 + 1e-6) + 1e-20 * far_ * far_;
     const std::size_t first = feet.size();
+    Foot straight;
     walk(
         0, [&](const Bounds& b) { return b.squared_distance(p) <= limit; },
         [&](const Triangle& t) {
@@ -195,11 +214,13 @@ class Surface final : public Form {
           const Vec3d area = cross(t[1] - t[0], t[2] - t[0]);
           if (dot(gap, gap) > limit || !(norm(area) > 0)) return;
           const Vec3d normal = area * (side / norm(area));
+          straight = {p + gap, norm(gap) > 0 ? gap * (1 / norm(gap)) : normal};
           const double depth = dot(t[0] - p, normal);
           const auto same = [&](const Foot& f) { return dot(f.normal, normal) > 1 - 1e-9; };
           const bool known = std::any_of(feet.begin() + static_cast<std::ptrdiff_t>(first), feet.end(), same);
           if (depth >= 0 && !known) feet.push_back({p + depth * normal, normal});
         });
+    if (feet.size() == first && norm(straight.normal) > 0) feet.push_back(straight);
   }
 
   std::vector<Triangle> triangles_;

@@ -69,10 +69,27 @@ TEST(GeometryWalls, FaceBesideTheLatticeKeepsItsDepthAndWarns) {
               testing::HasSubstr("wall 'floor': the face z = 3.8 m lies 0.20 spacings off"));
 }
 
+TEST(GeometryWalls, OfManyFacesBesideTheLatticeThreeAreTold) {
+  Case c = unit_case();
+  c.regions[0].shapes = {box({0, 4, 2}, {10, 6, 9})};
+  WallSpec stairs = wall("stairs", {});
+  for (int k = 0; k < 5; ++k) {
+    const ShapeSpec block = box({-20, -20, -20}, {2.0 * k + 2, 30, 5.8 - 0.7 * k});
+    stairs.shapes.push_back(block);
+  }
+  c.walls = {stairs};
+  const std::vector<std::string> warnings = fill(c).warnings;
+  const auto told = testing::HasSubstr("spacings off the lattice; ");
+  EXPECT_EQ(std::count_if(warnings.begin(), warnings.end(),
+                          [&](const std::string& w) { return testing::Value(w, told); }),
+            3);
+  EXPECT_THAT(warnings, testing::Contains("wall 'stairs': faces off the lattice besides these: 1"));
+}
+
 TEST(GeometryWalls, NoWarningOnTheLatticeOrFarFromFluid) {
   Case c = unit_case();
   c.walls = {wall("floor", {{PlaneSpec{{0, 0, 4}, {0, 0, 1}}, false}}),
-             wall("lid", {box({0, 0, 9.3}, {10, 10, 11})})};
+             wall("lid", {box({0, 0, 9.3}, {10, 10, 13})})};
   EXPECT_TRUE(fill(c).warnings.empty());
 }
 
@@ -209,6 +226,18 @@ TEST(GeometryWalls, OpenSpaceWrapsRoundAPeriodicAxis) {
   const WallParticles walls = fill(c).walls;
   expect_wall(walls, {0.5, 5.5, 5.5}, 0.5, {-1, 0, 0});
   expect_wall(walls, {4.5, 5.5, 5.5}, 0.5, {1, 0, 0});
+}
+
+// Its face towards -x lies beyond the period, which cuts it: no site goes without a particle.
+TEST(GeometryWalls, WallLargerThanThePeriodEndsAtItsFace) {
+  Case c = unit_case();
+  c.domain.periodic = {true, false, false};
+  c.regions[0].shapes = {box({9, 4, 4}, {10, 6, 6})};
+  c.walls = {wall("most", {box({-20, -20, -20}, {8, 30, 30})})};
+  const Filling filling = fill(c);
+  expect_wall(filling.walls, {0.5, 5.5, 5.5}, 0.5, {-1, 0, 0});
+  expect_wall(filling.walls, {7.5, 5.5, 5.5}, 0.5, {1, 0, 0});
+  EXPECT_EQ(filling.walls.position.size(), 6u * 16u * 16u);
 }
 
 TEST(GeometryWalls, TwoDimensionsHaveOneLayer) {

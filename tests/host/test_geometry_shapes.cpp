@@ -27,7 +27,7 @@ std::string error_of(const std::function<void()>& f) {
 
 Foot nearest_foot(const Shape& shape, Vec3d p) {
   std::vector<Foot> feet;
-  shape.feet(p, feet);
+  shape.feet(p, 10, feet);
   EXPECT_FALSE(feet.empty());
   Foot best = feet.at(0);
   for (const Foot& f : feet)
@@ -71,7 +71,7 @@ TEST(GeometryShapes, ContainerHasThePlanesAPointIsBeyond) {
   EXPECT_DOUBLE_EQ(shape.distance({1, 0.5, 3}), 0.5);
   EXPECT_DOUBLE_EQ(shape.distance({-3, 2, -4}), -5);
   std::vector<Foot> feet;
-  shape.feet({-3, 2, -4}, feet);
+  shape.feet({-3, 2, -4}, 10, feet);
   ASSERT_EQ(feet.size(), 2u);
   expect_near(feet[0].point, {0, 2, -4});
   expect_near(feet[0].normal, {1, 0, 0});

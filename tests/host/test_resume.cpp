@@ -225,6 +225,20 @@ TEST_F(Resume, GoesBeyondTheEndTimeOfTheCaseToTheBitsOfAnUnbrokenRun) {
   EXPECT_GT(end.time - later, 1e-9) << "cut to meet a time that is not the case's own";
 }
 
+// As if ten particles had been in a wall before.
+TEST_F(Resume, RemembersTheMostThatWereInWalls) {
+  run_here("run", 0.004);
+  const CheckpointStore store(folder_ / "run");
+  Checkpoint checkpoint = store.read_newest().checkpoint;
+  EXPECT_EQ(checkpoint.run.most_in_walls, 0);
+  checkpoint.run.most_in_walls = 10, checkpoint.run.deepest_in_wall = 1.5;
+  store.write(std::move(checkpoint));
+  EXPECT_THAT(resume_here("run", 0.008).results,
+              testing::Contains(HasSubstr("10 particles at most, 0 at the end; the deepest 1.50 spacings")));
+  EXPECT_EQ(store.read_newest().checkpoint.run.most_in_walls, 10);
+  EXPECT_THAT(read_text_file(folder_ / "run/summary.json"), HasSubstr("\"most\": 10"));
+}
+
 TEST_F(Resume, LeavesAFinishedRunAsItIsAndSaysSo) {
   run_here("unbroken");
   run_here("again");

@@ -226,7 +226,7 @@ TEST(Run, FailureLeavesReasonAndLastState) {
   EXPECT_THAT(describe_file(folder / "run/particles.vtkhdf"), HasSubstr("time steps: "));
 }
 
-TEST(Run, GoesOnWhenAllParticlesHaveLeft) {
+TEST(Run, EndsWithAllOutputsWhenAllParticlesHaveLeft) {
   const TempFolder folder;
   const RunOutcome outcome = run_text(leaving_case("remove"), into(folder));
   EXPECT_EQ(outcome.status, RunStatus::done) << outcome.reason;
