@@ -37,7 +37,7 @@ struct FluidArrays {
   Buffer<Quad> state;       // x: pressure [Pa], y: dynamic viscosity [Pa s], z: volume [m^3], w: mass [kg]
   Buffer<Real> pressure;    // [Pa]
   Buffer<Real> shear_rate;  // [1/s]
-  Buffer<Real> contact;     // [Pa] pressure towards walls, at least (walls/contact.hpp)
+  Buffer<Real> contact;     // [Pa] the least pressure towards walls (walls/contact.hpp)
 
   void resize(Index n) {
     count = n;

@@ -83,7 +83,7 @@ struct PredictAndAssemble {
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
       if (!bits(near)) continue;
       const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
-      const WallPressures<Lanes> p = towards_walls(c, i, wall_tension_limits(c, j));
+      const WallPressures<Lanes> p = towards_walls(c, i, own.x, wall_tension_limits(c, j));
       elastic -= (f * p.elastic) * d;
       given -=
           (f * (pair_pressure(c.flow, smoothing, p.fluid, gather(c.wall.pressure, j), r) - p.elastic)) * d;

@@ -57,7 +57,7 @@ struct Particle {
   Vec by_pressure;    // force per volume in the last step
   double excess = 0;  // density - rest density
   double volume = 0, mass = 0, pressure = 0, viscosity = 0;
-  double contact = 0;  // pressure towards walls, at least
+  double contact = -1e30;  // the least pressure towards walls
   int fluid = 0;
 };
 
@@ -91,7 +91,8 @@ struct World {
   double limit(const Wall& wall) const { return wall.tension_limit < 0 ? tension_limit : wall.tension_limit; }
   // Of a particle, towards a wall with a limit of its own.
   double pressure_towards(const Wall& wall, const Particle& p) const {
-    return std::max(sound_speed * sound_speed * p.excess, -limit(wall));
+    return wall.tension_limit < 0 ? p.pressure
+                                  : std::max(sound_speed * sound_speed * p.excess, -wall.tension_limit);
   }
   double wall_volume() const { return std::pow(spacing, dimensions); }
   double softening() const { return 1e-6 * support * support; }
@@ -219,7 +220,8 @@ inline double contact_pressure(const World& w, std::size_t i) {
     distance = std::min(distance, from_surface);
   });
   const Particle& p = w.particles[i];
-  return w.kind(p).rest_density * w.sound_speed * w.sound_speed * std::max(0.0, -distance / w.spacing);
+  const double stiffness = w.kind(p).rest_density * w.sound_speed * w.sound_speed;
+  return distance < 0 ? -stiffness * distance / w.spacing : -1e30;
 }
 
 // Pressure that a wall particle takes from the fluid in reach.

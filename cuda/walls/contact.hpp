@@ -12,8 +12,11 @@ namespace slagflow {
 //   p = rho0 c0^2 depth/dx.
 // That depends on the place alone: what it takes on impact it gives back. (Begun a quarter of a spacing above
 // the surface it hastens thin films, by 5 % in a discharge.)
+// Above the surface there is none: the wall may pull.
+constexpr Real no_contact = Real(-1e30);
+
 HOST_DEVICE inline Real contact_pressure(const FlowConstants& flow, Real rest_density, Real distance) {
-  return rest_density * flow.sound_speed_squared * larger(Real(0), -distance / flow.spacing);
+  return distance < 0 ? -rest_density * flow.sound_speed_squared * distance / flow.spacing : no_contact;
 }
 
 // Distance of the fluid particle from the part of the surface above the wall particle, or a large number

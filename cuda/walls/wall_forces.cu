@@ -40,7 +40,7 @@ struct AddImpulse {
     if (r2 >= square(c.flow.support)) return;
     const Quad own = c.fluid.state[i], wall = c.wall.velocity[w];
     const Real r = std::sqrt(r2), f = smoothing.gradient(r);
-    const WallPressures<Real> p = towards_walls(c, i, wall_tension_limit(c, w));
+    const WallPressures<Real> p = towards_walls(c, i, own.x, wall_tension_limit(c, w));
     const Real volumes = -dt * own.z * c.flow.wall_volume * f;
     Vec3d pressure = to_double(
         (volumes * pair_pressure(c.flow, smoothing, p.fluid, c.wall.pressure[w], r)) * d);

@@ -27,14 +27,16 @@ HOST_DEVICE inline Lanes wall_tension_limits(const PairContext& c, const Index* 
 }
 
 // Pressures of a fluid particle towards walls that bear `limit` [Pa]: what the equation of state gives, and
-// with contact (contact.hpp). T: Real or Lanes.
+// with contact (contact.hpp). `towards_fluid`: p_i. T: Real or Lanes.
 template <class T>
 struct WallPressures {
   T elastic, fluid;
 };
 template <class T>
-HOST_DEVICE WallPressures<T> towards_walls(const PairContext& c, Index i, T limit) {
-  const T elastic = larger(T(c.flow.sound_speed_squared * c.fluid.motion[i].w), -limit);
+HOST_DEVICE WallPressures<T> towards_walls(const PairContext& c, Index i, Real towards_fluid, T limit) {
+  T elastic = towards_fluid;
+  if (walls_have_tension_limits(c))
+    elastic = larger(T(c.flow.sound_speed_squared * c.fluid.motion[i].w), -limit);
   return {elastic, larger(elastic, T(c.fluid.contact[i]))};
 }
 

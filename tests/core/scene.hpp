@@ -116,6 +116,7 @@ class Scene {
     departed.assign(setup.fluids.size(), {});
     ordering.sort(fluid, departed);
     ordering.sort(wall);
+    upload_contact();
     const auto r = static_cast<Real>(reach());
     fluid_list.build(ordering.fluid_sources(fluid), fluid.place.span(), box, r, NeighbourList::Pairs::self);
     wall_list.build(ordering.wall_sources(wall), fluid.place.span(), box, r, NeighbourList::Pairs::other);
@@ -198,7 +199,7 @@ class Scene {
           p.excess = rest * random_.uniform(-0.01, 0.01);
           p.mass = rest * std::pow(spacing, o.dimensions), p.volume = p.mass / std::min(rest, rest + p.excess);
           p.pressure = random_.uniform(-30, 200);
-          p.contact = random_.uniform(0, 1) < 0.2 ? random_.uniform(0, 300) : 0;
+          p.contact = world.particles.size() % 5 == 1 ? 10.0 * (k + 1) : -1e30;
           p.viscosity = std::pow(10, random_.uniform(-1, 2));
           const Vec3d a = rest * random_.vector(20);
           p.by_pressure = {a.x, o.dimensions == 3 ? a.y : 0, a.z};
@@ -252,7 +253,7 @@ class Scene {
     std::vector<Quad> place, motion, by_pressure, state;
     std::vector<std::uint8_t> kind;
     std::vector<Index> id;
-    std::vector<Real> pressure, contact;
+    std::vector<Real> pressure;
     for (reference::Particle& p : world.particles) {
       p.x = rounded(p.x), p.v = rounded(p.v), p.excess = rounded(p.excess), p.pressure = rounded(p.pressure);
       p.volume = rounded(p.volume), p.mass = rounded(p.mass), p.viscosity = rounded(p.viscosity);
@@ -260,7 +261,6 @@ class Scene {
       position.push_back({p.x.x, p.x.y, p.x.z});
       place.push_back(to_device(p.x, p.volume)), motion.push_back(to_device(p.v, p.excess));
       by_pressure.push_back(to_device(p.by_pressure, 0));
-      p.contact = rounded(p.contact), contact.push_back(static_cast<Real>(p.contact));
       state.push_back(to_device({p.pressure, p.viscosity, p.volume}, p.mass));
       kind.push_back(static_cast<std::uint8_t>(p.fluid)), id.push_back(static_cast<Index>(id.size()));
       pressure.push_back(static_cast<Real>(p.pressure));
@@ -268,10 +268,17 @@ class Scene {
     fluid.resize(static_cast<Index>(id.size()));
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
     fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id), fluid.pressure.upload(pressure);
-    fluid.contact.upload(contact);
     fluid.by_pressure.upload(by_pressure), fluid.increment.upload(std::vector<Quad>(id.size())),
         fluid.last_increment.upload(std::vector<Quad>(id.size())),
         fluid.shear_rate.upload(std::vector<Real>(id.size()));
+  }
+
+  // Set anew in each step, it does not go with the particles.
+  void upload_contact() {
+    std::vector<Real> contact;
+    for (const Index id : download(context, fluid.id.span()))
+      contact.push_back(static_cast<Real>(world.particles[static_cast<std::size_t>(id)].contact));
+    fluid.contact.upload(contact);
   }
 
   void upload_walls() {
