@@ -1,8 +1,11 @@
+#include <limits>
+
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
 #include "exact_yield.hpp"
 #include "lane_math.hpp"
 #include "smoothing/lucy.hpp"
+#include "yield_rheology.hpp"
 
 namespace slagflow {
 
@@ -10,38 +13,15 @@ namespace {
 
 constexpr Real over_relaxation = Real(1.6);
 
-// Which parameter of a rheology is its yield stress; -1: it has none.
-HOST_DEVICE inline int yield_parameter(RheologyKind kind) {
-  if (kind == RheologyKind::bingham) return 1;
-  return kind == RheologyKind::herschel_bulkley ? 2 : -1;
-}
-
-HOST_DEVICE inline Real yield_stress(const Rheology& r) {
-  const int k = yield_parameter(r.kind);
-  return k < 0 ? Real(0) : r.parameters[k];
-}
-
 HOST_DEVICE inline Real held_share(Real stress_squared, Real yield) {
   return stress_squared > square(yield) ? yield / std::sqrt(stress_squared) : Real(1);
 }
 
-// [Pa s] of the part that is no yield stress.
-HOST_DEVICE inline Real viscous_part_of(Rheology r, Real shear_rate) {
-  const int k = yield_parameter(r.kind);
-  if (k >= 0) r.parameters[k] = 0;
-  return viscosity(r, shear_rate);
-}
-
-struct ViscousPart {
-  Span<const FluidConstants> fluids;
-  Span<const std::uint8_t> fluid;
-  Span<const Real> shear_rate;
-  Span<const Quad> from;
-  Span<Quad> state;
-  HOST_DEVICE void operator()(Index i) const {
-    const Quad s = from[i];
-    state[i] = {s.x, viscous_part_of(fluids[fluid[i]].rheology, shear_rate[i]), s.z, s.w};
-  }
+// How a pair of two fluids shares what it carries: one stress in both halves, whose shear rates differ. With
+// the stiffness k = eta + a of its particles the halves have the shares 2 k_j / (k_i + k_j) of the shear rate
+// and of the force of the stresses s, and slip by (s_j - s_i) / (k_i + k_j).
+struct Halves {
+  Lanes own = 1, other = 1, slip = 0;
 };
 
 // The pairs of one particle, with the root of C (d+2) |F| / r^2 for each.
@@ -69,6 +49,17 @@ struct PairLoop {
     }
   }
 
+  HOST_DEVICE Halves halves(Index i, const Index* j) const {
+    Halves h;
+    if (c.fluids.size == 1) return h;
+    const Lanes own = c.fluid.state[i].y, other = gather(c.fluid.state, j).y, one = 1;
+    const LaneMask alike = same(c.fluid.fluid, j, c.fluid.fluid[i]);
+    h.slip = select(alike, Lanes(0), one / (own + other));
+    h.own = select(alike, one, Real(2) * other * h.slip),
+    h.other = select(alike, one, Real(2) * own * h.slip);
+    return h;
+  }
+
   // visit(at, velocity of the wall, d, g) for the pairs that stick.
   template <class Visit>
   HOST_DEVICE void over_walls(Index i, Visit visit) const {
@@ -91,6 +82,7 @@ struct PairLoop {
   }
 };
 
+// w of the result: the size of what was added up, for its rounding.
 template <class Smoothing, class Box>
 struct AddForce {
   PairLoop<Smoothing, Box> loop;
@@ -103,81 +95,129 @@ struct AddForce {
     const Real volume = loop.c.fluid.place[i].w, share = 2 * held[i] - 1;
     const Lanes own_factor = volume * share, root_volume = std::sqrt(volume);
     LaneVec3 sum;
+    Lanes squares = 0;
     loop.over_fluid(i, [&](Offset at, const Index* j, Lanes their, LaneVec3 d, Lanes g) {
+      const Halves half = loop.halves(i, j);
       const Lanes other_factor = their * (Real(2) * gather(held, j) - Real(1));
-      const Lanes stress = own_factor * (root(their) * load_lanes(&own[at])) +
-                           other_factor * (root_volume * load_lanes(&other[at]));
-      sum += (g * stress) * d;
+      const Lanes stress = half.own * own_factor * (root(their) * load_lanes(&own[at])) +
+                           half.other * other_factor * (root_volume * load_lanes(&other[at]));
+      const LaneVec3 force = (g * stress) * d;
+      sum += force, squares += dot(force, force);
     });
     Vec3 walls;
-    loop.over_walls(i, [&](Offset at, Vec3, Vec3 d, Real g) { walls += (g * share * wall[at]) * d; });
-    result[i] = quad(xyz(base[i]) - dt * (total(sum) + volume * walls), 0);
+    Real wall_squares = 0;
+    loop.over_walls(i, [&](Offset at, Vec3, Vec3 d, Real g) {
+      const Vec3 force = (volume * g * share * wall[at]) * d;
+      walls += force, wall_squares += dot(force, force);
+    });
+    const Real size = dt * std::sqrt(total(squares) + wall_squares);
+    result[i] = quad(xyz(base[i]) - dt * (total(sum) + walls), size);
   }
 };
+
+// The velocities as u* and what the solve adds to it: their differences keep the digits that a common speed
+// would take from those of the sum.
+struct Velocities {
+  Span<const Quad> predicted, increment;
+  HOST_DEVICE LaneVec3 predicted_difference(Index i, const Index* j) const {
+    return in_lanes(xyz(predicted[i])) - xyz(gather(predicted, j));
+  }
+  HOST_DEVICE LaneVec3 increment_difference(Index i, const Index* j) const {
+    return in_lanes(xyz(increment[i])) - xyz(gather(increment, j));
+  }
+};
+
+// Sums over the entries of a row: of p, of G u, of what d is between G u and the last (1 - f)/a of p, so that
+// small differences keep their digits; and the squared size of the terms of G u.
+template <class T>
+struct RowSums {
+  T pp = 0, gg = 0, dd = 0, dp = 0, size = 0;
+  HOST_DEVICE void add(T p, T rate, T last) {
+    const T d = rate - last * p;
+    pp += p * p, gg += rate * rate, dd += d * d, dp += d * p;
+  }
+};
+
+HOST_DEVICE inline RowSums<Real> sum_of(const RowSums<Lanes>& a, const RowSums<Real>& b) {
+  return {total(a.pp) + b.pp, total(a.gg) + b.gg, total(a.dd) + b.dd, total(a.dp) + b.dp,
+          total(a.size) + b.size};
+}
 
 template <class Smoothing, class Box>
 struct Update {
   PairLoop<Smoothing, Box> loop;
-  Span<const Quad> velocity;
-  Span<const Real> held;
+  Velocities velocity;
+  Span<const Real> held, augmentation;
   Span<Real> own, other, wall, new_held;
-  Span<double> gap, change, shear;
+  Real scale;  // a velocity for a stress [m/(s Pa)]
+  Span<double> gap, shear, rounding, stress;
 
-  HOST_DEVICE static Real kept(Real f) { return f + (1 - over_relaxation) * (1 - f); }
+  template <class T>
+  HOST_DEVICE static T kept(T f) {
+    return f + T(1 - over_relaxation) * (T(1) - f);
+  }
 
-  HOST_DEVICE void operator()(Index i) const {
-    const Vec3 u = xyz(velocity[i]);
-    const LaneVec3 here = in_lanes(u);
-    const Real augmentation = loop.c.flow.augmentation, step = over_relaxation * augmentation;
-    const Real keep = kept(held[i]), root_volume = std::sqrt(loop.c.fluid.place[i].w);
-    Lanes pp = 0, pg = 0, gg = 0, po = 0, oo = 0;
+  HOST_DEVICE Real sheared(Index i, Real f) const {
+    return augmentation[i] > 0 ? (1 - f) / augmentation[i] : Real(0);
+  }
+
+  HOST_DEVICE RowSums<Lanes> fluid_row(Index i) const {
+    const Real volume = loop.c.fluid.place[i].w, share = 2 * held[i] - 1;
+    const Lanes keep = kept(held[i]), step = over_relaxation * augmentation[i],
+                root_volume = std::sqrt(volume), last = sheared(i, held[i]);
+    RowSums<Lanes> sums;
     loop.over_fluid(i, [&](Offset at, const Index* j, Lanes their, LaneVec3 d, Lanes g) {
-      const Lanes rate = g * dot(here - xyz(gather(velocity, j)), d), mine = rate * root(their);
-      const Lanes their_held = gather(held, j);
-      const Lanes their_keep = their_held + (1 - over_relaxation) * (Lanes(1) - their_held);
+      const LaneVec3 before = velocity.predicted_difference(i, j),
+                     added = velocity.increment_difference(i, j);
+      const Halves half = loop.halves(i, j);
+      const Lanes their_held = gather(held, j), their_step = over_relaxation * gather(augmentation, j);
       const LaneMask near = g > Lanes(0);
-      const Lanes old = select(near, load_lanes(&own[at]), Lanes(0)), p = keep * old + step * mine;
-      const Lanes q =
-          select(near, their_keep * load_lanes(&other[at]) + step * (rate * root_volume), Lanes(0));
-      store_lanes(&own[at], p), store_lanes(&other[at], q);
-      pp += p * p, pg += p * mine, gg += mine * mine, po += p * old, oo += old * old;
+      const Lanes old = select(near, load_lanes(&own[at]), Lanes(0));
+      const Lanes their_old = select(near, load_lanes(&other[at]), Lanes(0));
+      const Lanes rate = g * (dot(before, d) + dot(added, d)), root_their = root(their);
+      // As entries of either row: the stress of one half is that of the other after the slip.
+      const Lanes ratio = root_their / root_volume, own_stress = share * old,
+                  their_stress = (Real(2) * their_held - Real(1)) * their_old;
+      const Lanes mine = half.own * rate * root_their + half.slip * (ratio * their_stress - own_stress);
+      const Lanes theirs = half.other * rate * root_volume + half.slip * (own_stress / ratio - their_stress);
+      const Lanes p = keep * old + step * mine;
+      store_lanes(&own[at], p);
+      store_lanes(&other[at], kept(their_held) * their_old + their_step * theirs);
+      sums.add(p, mine, last);
+      sums.size += square(g) * their * dot(d, d) * (dot(before, before) + dot(added, added));
     });
-    Real stress = total(pp), work = total(pg), rates = total(gg), both = total(po), before = total(oo);
+    return sums;
+  }
+
+  HOST_DEVICE RowSums<Real> wall_row(Index i) const {
+    const Vec3 predicted = xyz(velocity.predicted[i]), added = xyz(velocity.increment[i]);
+    const Real keep = kept(held[i]), step = over_relaxation * augmentation[i], last = sheared(i, held[i]);
+    RowSums<Real> sums;
     loop.over_walls(i, [&](Offset at, Vec3 there, Vec3 d, Real g) {
-      const Real rate = g * dot(u - there, d);
+      const Vec3 before = predicted - there;
+      const Real rate = g * (dot(before, d) + dot(added, d));
       const Real old = g > 0 ? wall[at] : Real(0), p = keep * old + step * rate;
       wall[at] = p;
-      stress += p * p, work += p * rate, rates += rate * rate, both += p * old, before += old * old;
+      sums.add(p, rate, last);
+      sums.size += square(g) * dot(d, d) * (dot(before, before) + dot(added, added));
     });
-    const Rheology& r = loop.c.fluids[loop.c.fluid.fluid[i]].rheology;
-    const Real f = held_share(stress, yield_stress(r)), sheared = (1 - f) / augmentation,
-               last = (1 - held[i]) / augmentation;
-    new_held[i] = f;
-    gap[i] = larger(0.0, static_cast<double>(rates - 2 * sheared * work + square(sheared) * stress));
-    change[i] = larger(0.0, static_cast<double>(square(sheared) * stress - 2 * sheared * last * both +
-                                                square(last) * before));
-    shear[i] = static_cast<double>(rates);
+    return sums;
   }
-};
-
-// p for another augmentation, `ratio` times the old one: the stress f p stays, and the sheared strain rate.
-struct Rescale {
-  ListView fluid_list, wall_list;
-  Span<const Real> held;
-  Real ratio;
-  Span<Real> own, other, wall, new_held;
-
-  HOST_DEVICE Real factor(Real f) const { return f + ratio * (1 - f); }
 
   HOST_DEVICE void operator()(Index i) const {
-    const Real mine = factor(held[i]);
-    const Offset first = fluid_list.row(i), first_wall = wall_list.row(i);
-    for (Index k = 0; k < fluid_list.length[i]; ++k) {
-      const Offset at = first + k * ListView::stride();
-      own[at] *= mine, other[at] *= factor(held[fluid_list.entry[at]]);
+    const RowSums<Real> row = sum_of(fluid_row(i), wall_row(i));
+    if (augmentation[i] == 0) {  // a fluid without a yield stress has nothing to agree upon
+      new_held[i] = 0, gap[i] = shear[i] = rounding[i] = stress[i] = 0;
+      return;
     }
-    for (Index k = 0; k < wall_list.length[i]; ++k) wall[first_wall + k * ListView::stride()] *= mine;
-    new_held[i] = held[i] / mine;
+    const Real f = held_share(row.pp, yield_stress(loop.c.fluids[loop.c.fluid.fluid[i]].rheology));
+    const Real more = sheared(i, f) - sheared(i, held[i]);
+    new_held[i] = f;
+    const double unit = square(static_cast<double>(scale * augmentation[i]));
+    gap[i] = unit * larger(0.0, static_cast<double>(row.dd - 2 * more * row.dp + square(more) * row.pp));
+    shear[i] = unit * static_cast<double>(row.gg);
+    rounding[i] = unit * static_cast<double>(row.size + row.pp / square(augmentation[i]));
+    stress[i] = static_cast<double>(square(scale * f) * row.pp);
   }
 };
 
@@ -219,35 +259,17 @@ ExactYield::ExactYield(Context& c)
       spare_other_(c, "yield stresses"),
       spare_wall_(c, "yield stresses of walls"),
       spare_held_(c, "held shares"),
+      relative_(c, "relative augmentations"),
+      spare_relative_(c, "relative augmentations"),
       state_(c, "viscous states"),
+      augmentations_(c, "augmentations"),
       gap_(c, "yield sums"),
-      change_(c, "yield sums"),
       shear_(c, "yield sums"),
+      rounding_(c, "yield sums"),
+      stress_(c, "yield sums"),
       row_of_id_(c, "rows of ids"),
       fluid_layout_(c, "yield pairs"),
       wall_layout_(c, "yield pairs of walls") {}
-
-void ExactYield::begin(const PairContext& c, const FluidArrays& fluid, Real augmentation) {
-  const Index n = c.fluid.count;
-  if (augmentation_ > 0 && augmentation != augmentation_) {
-    spare_held_.resize(n);
-    launch(context_, "rescale yield stresses", n,
-           Rescale{c.fluid_list, c.wall_list, held_.span(), augmentation / augmentation_, own_.span(),
-                   other_.span(), wall_.span(), spare_held_.span()});
-    held_.swap(spare_held_);
-  }
-  augmentation_ = augmentation;
-  state_.resize(n);
-  launch(context_, "viscous part", n,
-         ViscousPart{c.fluids, c.fluid.fluid, fluid.shear_rate.span(), c.fluid.state, state_.span()});
-}
-
-PairContext ExactYield::viscous_part(const PairContext& c) const {
-  PairContext result = c;
-  result.fluid.state = state_.span();
-  result.flow.augmentation = augmentation_;
-  return result;
-}
 
 void ExactYield::add_force(const PairContext& c, Real dt, Span<const Quad> base, Span<Quad> force) {
   with_box(c, [&](const auto& loop) {
@@ -263,23 +285,31 @@ void ExactYield::measure_stress(const PairContext& c, Span<const Real> shear_rat
                       held_.span(), shear_rate, result});
 }
 
-ExactYield::Rates ExactYield::update(const PairContext& c, Span<const Quad> velocity) {
+ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> predicted,
+                                      Span<const Quad> increment) {
+  // Of many terms the roundings cancel for the most part.
+  constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
   const Index n = c.fluid.count;
-  gap_.resize(n), change_.resize(n), shear_.resize(n), spare_held_.resize(n);
+  gap_.resize(n), shear_.resize(n), rounding_.resize(n), stress_.resize(n), spare_held_.resize(n);
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield stresses", n,
-           Update<decltype(loop.smoothing), decltype(loop.box)>{
-               loop, velocity, held_.span(), own_.span(), other_.span(), wall_.span(), spare_held_.span(),
-               gap_.span(), change_.span(), shear_.span()});
+           Update<decltype(loop.smoothing), decltype(loop.box)>{loop,
+                                                                {predicted, increment},
+                                                                held_.span(),
+                                                                augmentations_.span(),
+                                                                own_.span(),
+                                                                other_.span(),
+                                                                wall_.span(),
+                                                                spare_held_.span(),
+                                                                c.flow.spacing / unit_,
+                                                                gap_.span(),
+                                                                shear_.span(),
+                                                                rounding_.span(),
+                                                                stress_.span()});
   });
   held_.swap(spare_held_);
   auto rms = [&](Buffer<double>& v) { return std::sqrt(sum(context_, v.span()) / n); };
-  return {rms(gap_), rms(change_), rms(shear_)};
-}
-
-void ExactYield::balance(double gap, double change) {
-  constexpr double factor = 1.5, least = 0.3, most = 100;
-  balanced_ = gap > change ? smaller(most, factor * balanced_) : larger(least, balanced_ / factor);
+  return {rms(gap_), rms(shear_), epsilon / 8 * rms(rounding_), rms(stress_)};
 }
 
 }  // namespace slagflow

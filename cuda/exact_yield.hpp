@@ -8,8 +8,12 @@
 // (1992) 293):
 //   (M + dt (eta + a) K) u = M u* + walls - dt G^T V s,   s_i = (2 f_i - 1) p_i
 //   p_i <- [f_i + (1 - w)(1 - f_i)] p_i + w a (G u)_i,    f_i = min(1, tau_i / |p_i|)
-// a [Pa s]: the augmentation, w: the over-relaxation. p [Pa] is all there is to keep: the stress is f p, the
-// sheared strain rate (1 - f) p / a, which is zero to the bit in a plug.
+// a [Pa s]: the augmentation, each particle's own, w: the over-relaxation. p [Pa] is all there is to keep:
+// the stress is f p, the sheared strain rate (1 - f) p / a, which is zero to the bit in a plug.
+//   G u is taken of u* and of what the solve adds to it, each by differences: it must not depend on the speed
+//   of
+// the frame. A pair of two fluids has halves with strain rates x.(u_i - u_j) +- y of which y is where their
+// stresses are equal; it is eliminated, so that their viscosities with a have the harmonic mean.
 #pragma once
 
 #include "density.hpp"
@@ -24,6 +28,12 @@ HOST_DEVICE inline Real wall_strain_factor(const FlowConstants& flow, Real stick
 // p of the entries of the wall list and f of the particles; without data where no yield stress is exact.
 struct WallYield {
   Span<const Real> stress, held;
+};
+
+// a = rho spacing^2 / dt times a number of each particle: `fixed`, or where that is 0 what suits the flow,
+// changed by `largest_factor` at most.
+struct Augmentation {
+  Real unit, fixed, largest_factor;  // [Pa s]
 };
 
 class ExactYield {
@@ -41,26 +51,21 @@ class ExactYield {
   // The same when p belongs to the lists already, as after restoring it; throws Error when it cannot.
   void remember(const Lists&, Index ids);
 
-  // Begins a step with the augmentation [Pa s]; strain rates and stresses of the last step are kept.
-  void begin(const PairContext&, const FluidArrays&, Real augmentation);
+  // Begins a step, or goes on with one, with other augmentations; the stresses and sheared strain rates stay.
+  void begin(const PairContext&, const FluidArrays&, const Augmentation&);
   // The pairs with the part of the viscosities that is no yield stress, at the shear rate of the step's
-  // start, and with the augmentation.
-  PairContext viscous_part(const PairContext&) const;
+  // start, plus the augmentation of fluids with a yield stress.
+  PairContext augmented(const PairContext&) const;
 
-  // force_i = -dt (G^T V s)_i  [kg m/s]
+  // force_i = base_i - dt (G^T V s)_i  [kg m/s], of the augmented pairs; w: the size of its terms.
   void add_force(const PairContext&, Real dt, Span<const Quad> base, Span<Quad> force);
-  // p and f from the velocities. Returns the rms of what is between G u and the strain rates q, of how much
-  // these changed, and of G u.
-  struct Rates {
-    double gap = 0, change = 0, shear = 0;  // [1/s]
+  // p and f from the velocities u = u* + increment, of the augmented pairs. Returns the rms over the
+  // particles of dt/(rho spacing) times: a times what is between G u and the strain rates q, a G u, a times
+  // its rounding, and the stress f p.
+  struct Misfit {
+    double gap = 0, shear = 0, rounding = 0, stress = 0;  // [m/s]
   };
-  Rates update(const PairContext&, Span<const Quad> velocity);
-
-  // What suits the flow, in rho spacing^2/dt, after a step of which `gap` and `change` are the sums over its
-  // iterations: more where rates differ but no longer change, as in a plug that comes to rest, less where
-  // they change (residual balancing: B. S. He et al., J. Optim. Theory Appl. 106 (2000) 337).
-  void balance(double gap, double change);
-  double balanced_augmentation() const { return balanced_; }
+  Misfit update(const PairContext&, Span<const Quad> predicted, Span<const Quad> increment);
 
   // |tau| [Pa] of each particle: f |p| and that of the viscous part at these shear rates.
   void measure_stress(const PairContext&, Span<const Real> shear_rate, Span<Real> result);
@@ -74,10 +79,11 @@ class ExactYield {
   void visit_arrays(Visitor& v) {
     v.array("yield_own", own_), v.array("yield_other", other_), v.array("yield_wall", wall_);
     v.array("yield_held", held_);
-    std::vector<double> numbers{balanced_, static_cast<double>(augmentation_)};
-    v.values("yield_augmentation", numbers);
-    numbers.resize(2);
-    balanced_ = numbers[0], augmentation_ = static_cast<Real>(numbers[1]);
+    v.array("yield_augmentation", relative_);
+    std::vector<double> unit{static_cast<double>(unit_)};
+    v.values("yield_augmentation_unit", unit);
+    unit.resize(1);
+    unit_ = static_cast<Real>(unit[0]);
   }
 
  private:
@@ -91,11 +97,12 @@ class ExactYield {
   void record(const NeighbourList&, Span<const Index> id, Layout&);
 
   Context& context_;
-  double balanced_ = 1;
-  Real augmentation_ = 0;  // [Pa s] that p belongs to
+  Real unit_ = 0;  // [Pa s] of the augmentations that p belongs to
   Buffer<Real> own_, other_, wall_, held_, spare_own_, spare_other_, spare_wall_, spare_held_;
+  Buffer<Real> relative_, spare_relative_;  // augmentations in that unit, 0 without a yield stress
   Buffer<Quad> state_;
-  Buffer<double> gap_, change_, shear_;
+  Buffer<Real> augmentations_;  // [Pa s]
+  Buffer<double> gap_, shear_, rounding_, stress_;
   Buffer<Index> row_of_id_;
   Layout fluid_layout_, wall_layout_;
 };

@@ -30,8 +30,8 @@ struct OldRow {
 struct Carry {
   ListView fluid_list, wall_list, old_fluid, old_wall;
   Span<const Index> id, wall_id, row_of_id;
-  Span<const Real> held, old_own, old_other, old_wall_stress;
-  Span<Real> new_held, own, other, wall;
+  Span<const Real> held, relative, old_own, old_other, old_wall_stress;
+  Span<Real> new_held, new_relative, own, other, wall;
 
   HOST_DEVICE void operator()(Index i) const {
     const Index row = id[i] < row_of_id.size ? row_of_id[id[i]] : -1;
@@ -51,6 +51,7 @@ struct Carry {
       wall[at] = from < 0 ? 0 : old_wall_stress[from];
     }
     new_held[i] = row < 0 ? Real(1) : held[row];
+    new_relative[i] = row < 0 ? Real(0) : relative[row];
   }
 };
 
@@ -94,20 +95,21 @@ void ExactYield::follow(const Lists& lists, Index ids) {
   spare_own_.resize(lists.fluid.capacity(), margin_percent);
   spare_other_.resize(lists.fluid.capacity(), margin_percent);
   spare_wall_.resize(lists.wall.capacity(), margin_percent);
-  spare_held_.resize(n);
+  spare_held_.resize(n), spare_relative_.resize(n);
   launch(context_, "carry yield stresses", static_cast<Index>(n),
          Carry{lists.fluid.view(), lists.wall.view(), fluid_layout_.view(), wall_layout_.view(),
-               lists.fluid_id.span(), lists.wall_id.span(), row_of_id_.span(), held_.span(), own_.span(),
-               other_.span(), wall_.span(), spare_held_.span(), spare_own_.span(), spare_other_.span(),
-               spare_wall_.span()});
-  own_.swap(spare_own_), other_.swap(spare_other_), wall_.swap(spare_wall_), held_.swap(spare_held_);
+               lists.fluid_id.span(), lists.wall_id.span(), row_of_id_.span(), held_.span(), relative_.span(),
+               own_.span(), other_.span(), wall_.span(), spare_held_.span(), spare_relative_.span(),
+               spare_own_.span(), spare_other_.span(), spare_wall_.span()});
+  own_.swap(spare_own_), other_.swap(spare_other_), wall_.swap(spare_wall_);
+  held_.swap(spare_held_), relative_.swap(spare_relative_);
   remember(lists, ids);
 }
 
 void ExactYield::remember(const Lists& lists, Index ids) {
   const Offset n = lists.fluid_id.size();
   const bool fits = own_.size() == lists.fluid.capacity() && other_.size() == own_.size() &&
-                    wall_.size() == lists.wall.capacity() && held_.size() == n;
+                    wall_.size() == lists.wall.capacity() && held_.size() == n && relative_.size() == n;
   if (!fits) throw Error("checkpoint: its yield stresses do not belong to this case");
   row_of_id_.resize(ids);
   launch(context_, "rows of ids", ids, Fill{row_of_id_.span()});

@@ -144,7 +144,7 @@ void Simulation::State::give_up(const SolveResult& result) {
           << result.iterations << " iterations";
   if (ended_at_yield_iterations(result))
     message << ", the exact yield stress after numerics.yield_iterations = " << result.yield_iterations
-            << "; try more yield_iterations, a larger tolerance or a smaller courant";
+            << "; try more yield_iterations";
   else
     message << "; try more numerics.max_iterations, solver \"multigrid\" or a smaller courant";
   throw Error(message.str());

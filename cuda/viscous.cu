@@ -161,15 +161,11 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
 void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const Step& step,
                         FluidArrays& fluid) {
   const Index n = fluid.count;
-  if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step));
+  constexpr double largest_factor = 1.5;  // of the augmentations, between steps
+  if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step, largest_factor));
   const PairContext c = as_solved(whole);
-  const auto theta = static_cast<Real>(is_explicit() ? 1 : numerics_.theta);
-  {
-    Section timer(context_, "predictor and assembly");
-    const PredictorOutput out{predicted_.span(), fluid.by_pressure.span(), weight_.span(), diagonal_.span(),
-                              wall_.span(),      right_hand_side_.span()};
-    predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), theta);
-  }
+  const auto theta = static_cast<Real>(assembled_share());
+  assemble(c, step, fluid);
   Section timer(context_, "viscous solve");
   const LinearSystem matrix = system(c);
   if (theta < 1)
@@ -188,6 +184,13 @@ void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const St
   launch(context_, "add increment", n, if_converged(work_.state(), end_solve(fluid)));
 }
 
+void ViscousStep::assemble(const PairContext& c, const Step& step, FluidArrays& fluid) {
+  Section timer(context_, "predictor and assembly");
+  const PredictorOutput out{predicted_.span(), fluid.by_pressure.span(), weight_.span(), diagonal_.span(),
+                            wall_.span(),      right_hand_side_.span()};
+  predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), static_cast<Real>(assembled_share()));
+}
+
 SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole, const RowCells& rows,
                                 const Step& step, FluidArrays& fluid) {
   const SolveState& s = now.solve;
@@ -198,7 +201,7 @@ SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole,
   const PairContext c = as_solved(whole);
   const double wanted = wanted_residual(step, fluid.count);
   const SolveResult result = exact_yield_stress()
-                                 ? solve_exact(system(c), c, rows, step, fluid.increment)
+                                 ? solve_exact(system(c), c, rows, step, fluid)
                                  : go_on(system(c), rows, s, wanted * wanted / step.mass, fluid.increment);
   if (result.converged) launch(context_, "solved", 1, Declare{work_.state(), true});
   if (exact_yield_stress())
@@ -235,19 +238,16 @@ Span<const Quad> ViscousStep::explicit_velocity(const FluidArrays& fluid) const 
 }
 
 PairContext ViscousStep::as_solved(const PairContext& c) const {
-  return exact_yield_stress() ? yield_.viscous_part(c) : c;
+  return exact_yield_stress() ? yield_.augmented(c) : c;
 }
 
 WallYield ViscousStep::wall_yield() const { return exact_yield_stress() ? yield_.walls() : WallYield{}; }
 
-double ViscousStep::relative_augmentation() const {
-  return numerics_.yield_augmentation > 0 ? numerics_.yield_augmentation : yield_.balanced_augmentation();
-}
-
-Real ViscousStep::augmentation(const PairContext& c, const Step& step) const {
+Augmentation ViscousStep::augmentation(const PairContext& c, const Step& step, double largest_factor) const {
   const double spacing = static_cast<double>(c.flow.spacing);
   const double density = step.mass / (c.flow.dimensions == 2 ? square(spacing) : spacing * square(spacing));
-  return static_cast<Real>(relative_augmentation() * density * square(spacing) / step.dt);
+  return {static_cast<Real>(density * square(spacing) / step.dt),
+          static_cast<Real>(numerics_.yield_augmentation), static_cast<Real>(largest_factor)};
 }
 
 // Of conjugate gradients with the diagonal as preconditioner, from which multigrid takes over.

@@ -62,9 +62,11 @@ class ViscousStep {
   bool exact_yield_stress() const { return numerics_.yield == YieldModel::exact; }
   bool device_loop() const { return numerics_.solver_loop == SolverLoop::conditional; }
   bool is_explicit() const { return numerics_.viscous_step == ViscousStepping::explicit_step; }
+  // theta of the matrix, which an explicit step takes whole.
+  double assembled_share() const { return is_explicit() ? 1 : numerics_.theta; }
   LinearSystem system(const PairContext&) const;
   double wanted_residual(const Step&, Index count) const;
-  double wanted_gap(const Step&, Real spacing) const;
+  void assemble(const PairContext&, const Step&, FluidArrays&);
   int most_by_diagonal(int patience) const;
   void begin_solve(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
   SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,
@@ -73,10 +75,21 @@ class ViscousStep {
                            Buffer<Quad>& increment);
   void add_increment(const Buffer<Quad>& increment);
   AddAndGuess end_solve(FluidArrays&);
-  double relative_augmentation() const;
-  Real augmentation(const PairContext&, const Step&) const;
+  Augmentation augmentation(const PairContext&, const Step&, double largest_factor) const;
   SolveResult solve_exact(const LinearSystem&, const PairContext&, const RowCells&, const Step&,
-                          Buffer<Quad>& increment);
+                          FluidArrays&);
+  // Of the iteration with an exact yield stress.
+  struct ExactProgress {
+    double allowed = 0;   // velocity error [m/s]
+    double scale = 0;     // [kg] of its residual
+    double rounding = 0;  // of the strain rates, as a velocity error [m/s]
+    int iterations = 0;
+    bool rates_agree = false, settled = false;
+  };
+  void start_exact(const LinearSystem&);
+  SolveState start_inner(const LinearSystem&, const PairContext&, const Step&, const ExactProgress&,
+                         Buffer<Quad>& increment);
+  void judge(const ExactYield::Misfit&, double speed, ExactProgress&) const;
 
   Context& context_;
   NumericsSetup numerics_;

@@ -1,7 +1,9 @@
 // The oracle of the implicit step with an exact yield stress: the dual problem over the stresses of all rows,
 //   min over |lambda_i| <= tau_i of 1/2 (b - B^T lambda).A^-1 (b - B^T lambda),  u = A^-1 (b - B^T lambda),
 // by projected gradients with Nesterov's momentum (A. Beck, M. Teboulle, SIAM J. Imaging Sci. 2 (2009) 183),
-// all matrices dense, and its duality gap as the proof that it has arrived.
+// all matrices dense, and its duality gap as the proof that it has arrived. A pair of two fluids has an
+// unknown more, what the middle of the pair moves besides the mean of both: its halves shear by x.(u_i - u_j)
+// + y and x.(u_i - u_j) - y.
 #pragma once
 
 #include "reference_viscous.hpp"
@@ -10,18 +12,50 @@ namespace reference {
 
 // A row of B and its constant: dt V_i g x.(u_i - u_j), or dt V_i g x.(u_i - u_wall).
 struct StrainRow {
-  std::size_t i, j;  // j == i: a wall
-  Vec g;             // [1/m]
-  double offset;     // g . u_wall
+  std::size_t i, j;        // j == i: a wall
+  Vec g;                   // [1/m]
+  double offset;           // g . u_wall
+  std::size_t slip = 0;    // where y is in u; 0: the pair has none
+  double slip_weight = 0;  // [1/m^2] of y
 };
 
 inline double times(const StrainRow& r, const std::vector<double>& u) {
   auto at = [&](std::size_t k) { return Vec{u[3 * k], u[3 * k + 1], u[3 * k + 2]}; };
-  return r.i == r.j ? dot(r.g, at(r.i)) - r.offset : dot(r.g, at(r.i) - at(r.j));
+  if (r.i == r.j) return dot(r.g, at(r.i)) - r.offset;
+  return dot(r.g, at(r.i) - at(r.j)) + (r.slip > 0 ? r.slip_weight * u[r.slip] : 0);
 }
 
+// The numbers of the unknowns y, by the pair and the number of its image.
+struct Slips {
+  explicit Slips(const World& w) : particles(w.particles.size()) {
+    const std::size_t n = particles;
+    size = 3 * n;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j)
+        if (w.particles[i].fluid != w.particles[j].fluid)
+          for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) {
+            places.push_back({i, j, d, size}), ++size;
+          });
+  }
+  // Of the pair at separation d = x_i - x_j; its sign for the half of i.
+  std::pair<std::size_t, double> of(std::size_t i, std::size_t j, Vec d) const {
+    for (const Place& p : places) {
+      if (p.i == i && p.j == j && length(p.d - d) < 1e-9) return {p.at, 1};
+      if (p.i == j && p.j == i && length(p.d + d) < 1e-9) return {p.at, -1};
+    }
+    return {0, 0};
+  }
+  struct Place {
+    std::size_t i, j;
+    Vec d;
+    std::size_t at;
+  };
+  std::size_t particles, size;
+  std::vector<Place> places;
+};
+
 // The entries of G u of particle i; the same sum as in shear_rate_squared.
-inline std::vector<StrainRow> strain_rows(const World& w, std::size_t i) {
+inline std::vector<StrainRow> strain_rows(const World& w, const Slips& slips, std::size_t i) {
   std::vector<StrainRow> rows;
   auto root = [&](Vec d, double volume) {
     const double f = -slope_over_distance(w, length(d)) / (dot(d, d) + w.softening());
@@ -30,12 +64,14 @@ inline std::vector<StrainRow> strain_rows(const World& w, std::size_t i) {
   for (std::size_t j = 0; j < w.particles.size(); ++j)
     if (j != i)
       for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) {
-        rows.push_back({i, j, root(d, w.particles[j].volume) * d, 0});
+        const double g = root(d, w.particles[j].volume);
+        const auto [at, sign] = slips.of(i, j, d);
+        rows.push_back({i, j, g * d, 0, at, sign * g});
       });
   for_wall_pairs(w, i, [&](const Wall& wall, Vec d) {
     if (!wall.sticks) return;
     const Vec g = root(d, 2 * no_slip_factor(w, wall, d) * w.wall_volume()) * d;
-    rows.push_back({i, i, g, dot(g, wall.v)});
+    rows.push_back({i, i, g, dot(g, wall.v), 0, 0});
   });
   return rows;
 }
@@ -50,8 +86,13 @@ class YieldOracle {
  public:
   // A u = b is the step of the viscous part alone; `yield`: tau_i [Pa].
   YieldOracle(const World& w, const ViscousSystem& s, std::vector<double> yield, double dt)
-      : world_(w), system_(s), yield_(std::move(yield)), dt_(dt) {
-    for (std::size_t i = 0; i < w.particles.size(); ++i) rows_.push_back(strain_rows(w, i));
+      : world_(w), system_{Dense(Slips(w).size), s.right_hand_side}, yield_(std::move(yield)), dt_(dt) {
+    const Slips slips(w);
+    for (std::size_t i = 0; i < w.particles.size(); ++i) rows_.push_back(strain_rows(w, slips, i));
+    for (std::size_t i = 0; i < s.matrix.size; ++i)
+      for (std::size_t j = 0; j < s.matrix.size; ++j) system_.matrix(i, j) = s.matrix(i, j);
+    system_.right_hand_side.resize(slips.size);
+    add_slips();
     factor();
   }
 
@@ -94,6 +135,24 @@ class YieldOracle {
     return s;
   }
 
+  // The halves dissipate V g^2 (eta_i (x.u + y)^2 + eta_j (x.u - y)^2): with the harmonic mean that A has
+  // this lacks V (eta_i + eta_j) (g y + (eta_i - eta_j)/(eta_i + eta_j) g x.u)^2.
+  void add_slips() {
+    for (const auto& rows : rows_)
+      for (const StrainRow& r : rows) {
+        if (r.slip == 0 || r.i > r.j) continue;
+        const double own = world_.particles[r.i].viscosity, other = world_.particles[r.j].viscosity;
+        const double weight = dt_ * world_.particles[r.i].volume * (own + other);
+        const Vec along = ((own - other) / (own + other)) * r.g;
+        std::vector<std::pair<std::size_t, double>> terms{{r.slip, r.slip_weight}};
+        const double c[3] = {along.x, along.y, along.z};
+        for (std::size_t k = 0; k < 3; ++k)
+          terms.push_back({3 * r.i + k, c[k]}), terms.push_back({3 * r.j + k, -c[k]});
+        for (const auto& [p, a] : terms)
+          for (const auto& [q, b] : terms) system_.matrix(p, q) += weight * a * b;
+      }
+  }
+
   // The rows of A^-1, once.
   void factor() {
     const std::size_t n = system_.matrix.size;
@@ -120,6 +179,7 @@ class YieldOracle {
           b[3 * row.i + k] -= c[k];
           if (row.j != row.i) b[3 * row.j + k] += c[k];
         }
+        if (row.slip > 0) b[row.slip] -= dt_ * world_.particles[i].volume * stress[i][r] * row.slip_weight;
       }
     return b;
   }
@@ -164,7 +224,7 @@ class YieldOracle {
   }
 
   const World& world_;
-  const ViscousSystem& system_;
+  ViscousSystem system_;
   std::vector<double> yield_;
   double dt_;
   std::vector<std::vector<StrainRow>> rows_;

@@ -14,8 +14,9 @@ struct SolveState {
   double right_hand_side = 0;  // ||b||
   double residual = 0;         // ||b - A u||
   double rz = 0;               // r.z, z the preconditioned residual
-  // Of an exact yield stress: the residual of its first iteration, and with which it has converged.
-  double first_residual = 0, enough = 0;
+  // Of an exact yield stress: the residual of its first iteration, and with which it has converged; the rms
+  // speed |u*| [m/s].
+  double first_residual = 0, enough = 0, speed = 0;
   Real alpha = 0, beta = 0;  // beta = 0: a new start, the old direction is not read
   std::int32_t iterations = 0, most_iterations = 0;
   std::int32_t starts = 0, started_at = 0;  // how often, and at which iteration the last time
