@@ -79,7 +79,6 @@ struct FlowConstants {
       0;                  // C_visc 2 (d + 2) radial, C_visc 2 isotropic: pair weight of the viscous operator
   Real shear_factor = 0;  // C_visc (d + 2): pair weight of the squared shear rate
   Real softening = 0;     // 1e-6 h^2 [m^2], keeps coincident pairs finite
-  Real augmentation = 0;  // [Pa s] added to the mean viscosity of every pair (exact_yield.hpp)
 };
 
 // Morris' no-slip: a wall particle at depth d_w below the surface stands for the velocity that makes the

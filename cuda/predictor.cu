@@ -49,7 +49,7 @@ struct PredictAndAssemble {
           pairing -= (share * pairing_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
-        weight = (factor * own.z * share) * (mean + c.flow.augmentation) / (r2 + c.flow.softening);
+        weight = (factor * own.z * share) * mean / (r2 + c.flow.softening);
         diagonal += pair_diagonal(weight, d);
       }
       store_lanes(&out.weight[at], weight);
@@ -71,7 +71,7 @@ struct PredictAndAssemble {
 
   HOST_DEVICE WallPart walls(Index i, Vec3 x, Quad own, Push& push) const {
     const Real factor =
-        implicit_dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
+        implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
     LaneVec3 elastic, given, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);

@@ -142,6 +142,8 @@ class Simulation {
 
   double time() const;       // [s]
   double time_step() const;  // [s] of the last step; of the coming one before the first
+  // [s] over which the last step changed the velocities: they are those of half a step before time().
+  double velocity_time_step() const;
   std::int64_t steps() const;
   std::int64_t particles() const;        // fluid, in the domain as of the last build of the lists
   std::vector<Vec3d> positions() const;  // [m] of the fluid, in no order

@@ -78,6 +78,7 @@ struct Simulation::State {
   double kick();
   void choose_time_step();
   double time_after_step() const;
+  double velocity_step() const;
   ViscousStep::Step viscous_step();
   void reserve_step();
   void launch_step();

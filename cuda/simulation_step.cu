@@ -30,6 +30,10 @@ void Simulation::State::choose_time_step() {
   if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
 }
 
+// Velocities are half a step behind the places, as in the leapfrog scheme: from the middle of the last step to
+// that of this one. So a fall is g t^2/2 to round-off, and steps of any length follow each other.
+double Simulation::State::velocity_step() const { return 0.5 * (last_dt + dt); }
+
 // A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
 double Simulation::State::time_after_step() const {
   return dt == setup.end_time - time ? setup.end_time : time + dt;
@@ -38,7 +42,7 @@ double Simulation::State::time_after_step() const {
 ViscousStep::Step Simulation::State::viscous_step() {
   double lightest = 1e300;
   for (const auto& f : fluid_constants(setup)) lightest = smaller(lightest, static_cast<double>(f.mass));
-  return {dt, kick(), lightest};
+  return {velocity_step(), kick(), lightest};
 }
 
 RowCells Simulation::State::row_cells() const {
@@ -158,7 +162,7 @@ void Simulation::State::add_wall_forces() {
   if (!knows_wall_forces()) return;
   Section timer(context, "wall forces");
   wall_forces.add(viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
-                  {dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
+                  {solve_step.dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
                    viscous.wall_yield(), surface_tension.view(), &viscous.record()->solve});
 }
 
@@ -187,7 +191,7 @@ void Simulation::step() {
     s.last = s.solve_and_move();
     s.taken += s.last->taken, s.given += s.last->given;
     s.displacement = std::sqrt(s.last->displacement_squared);
-    s.capillary_work += s.dt * s.last->capillary_power;
+    s.capillary_work += s.solve_step.dt * s.last->capillary_power;
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
   s.time = s.time_after_step();

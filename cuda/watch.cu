@@ -97,7 +97,7 @@ void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   lowest_energy = smaller(lowest_energy, energy + unsure);
   // The work of walls is known to some ten per cent only: their pressure is too low next to the free surface.
   constexpr double work_weight = 3;
-  const double scale = vitals.kinetic_energy + now.dissipated + work_weight * std::fabs(now.work) +
+  const double scale = vitals.kinetic_energy + larger(now.dissipated, 0.0) + work_weight * std::fabs(now.work) +
                        mass_ * norm(force) * setup_.spacing + 1e-3 * vitals.elastic_energy;
   const double growth = (sure_energy - lowest_energy) / scale;
   if (growth > setup_.limits.max_energy_growth)
@@ -105,7 +105,19 @@ void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
          "the energy grew by " + number(sure_energy - lowest_energy) + " J without a source, a share of " +
              number(growth) + "; limits.max_energy_growth is " + number(setup_.limits.max_energy_growth),
          "a smaller courant");
+  check_dissipated(now, scale);
   check_given(vitals, now, scale);
+}
+
+// Viscosity takes energy, whatever walls do.
+void Watch::check_dissipated(const WatchMoment& now, double scale) const {
+  const double most = setup_.limits.max_energy_growth * (scale + std::fabs(now.dissipated));
+  if (-now.dissipated > most)
+    fail(now,
+         "viscosity gave the fluid " + number(-now.dissipated) +
+             " J; limits.max_energy_growth = " + number(setup_.limits.max_energy_growth) + " allows " +
+             number(most) + " J",
+         "a smaller numerics.tolerance");
 }
 
 // Pairing and walls at rest give back what they took, and at the start what the arrangement of the particles

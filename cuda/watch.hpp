@@ -30,6 +30,7 @@ class Watch {
 
  private:
   void check_energy(const Vitals&, const WatchMoment&);
+  void check_dissipated(const WatchMoment&, double scale) const;
   void check_given(const Vitals&, const WatchMoment&, double scale);
   double stiff_enough(double compression) const;
   [[noreturn]] void fail(const WatchMoment&, const std::string& what, const std::string& advice) const;

@@ -51,7 +51,7 @@ struct AddImpulse {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
       const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
       const Real factor =
-          dt * c.flow.operator_factor * own.z * (own.y + c.flow.augmentation) * c.flow.wall_volume;
+          dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
       const Real weight = -factor * stick * f / (r2 + c.flow.softening);
       const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
       viscous = to_double(couple(c.flow.coupling, weight, d, xyz(wall) - mean));

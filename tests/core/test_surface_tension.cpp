@@ -52,7 +52,7 @@ TEST_P(SurfaceTensionWith, BalancesTheMomentumWithTheWalls) {
     const Totals after = simulation.totals();
     const Vec3d walls =
         after.walls[0].pressure + after.walls[0].viscous - before.walls[0].pressure - before.walls[0].viscous;
-    const Vec3d gravity = simulation.time_step() * after.mass_in * s.gravity;
+    const Vec3d gravity = simulation.velocity_time_step() * after.mass_in * s.gravity;
     const Vec3d error = after.momentum - before.momentum - gravity + walls;
     const double size = norm(walls) + norm(gravity) + norm(after.momentum);
     EXPECT_LT(norm(error), 20 * static_cast<double>(std::numeric_limits<Real>::epsilon()) * size) << step;

@@ -59,8 +59,8 @@ TEST(Watch, EndsARunThatLosesItsParticles) {
               testing::AllOf(HasSubstr("a fraction 0.0"), HasSubstr("limits.max_lost_fraction is 0.001")));
 }
 
-// A block under pressure that is let go. Explicit acoustics add energy in the first steps where the time step
-// is too long for them: 0.5 % at a courant of 0.5, 12 % at 1.2, 60 % at 2.
+// A block under pressure that is let go. Explicit acoustics add energy where the time step is too long for
+// them.
 SimulationSetup released_block(double courant, std::uint8_t fluid) {
   SimulationSetup setup = testing_tools::spinning_block(0);
   testing_tools::Random random(1);
@@ -75,7 +75,7 @@ SimulationSetup released_block(double courant, std::uint8_t fluid) {
 TEST(Watch, EndsARunWhoseEnergyGrowsWithoutASource) {
   for (const std::uint8_t fluid : {std::uint8_t{0}, std::uint8_t{1}}) {
     EXPECT_EQ(end_of(released_block(0.5, fluid)), "");
-    EXPECT_THAT(end_of(released_block(1.2, fluid)),
+    EXPECT_THAT(end_of(released_block(2.5, fluid)),
                 testing::AllOf(HasSubstr("step 10 "), HasSubstr("the energy grew by"),
                                HasSubstr("limits.max_energy_growth is 0.05"), HasSubstr("courant")));
   }
@@ -83,12 +83,53 @@ TEST(Watch, EndsARunWhoseEnergyGrowsWithoutASource) {
 
 // What leaves takes its energy with it, and must not hide that the rest gains some.
 TEST(Watch, SeesEnergyGrowWhileParticlesLeave) {
-  SimulationSetup setup = released_block(2, 0);
+  SimulationSetup setup = released_block(2.5, 0);
   for (Vec3d& v : setup.particles.velocity) v.x = -0.05;
   setup.domain.lower.x = -0.046;
   EXPECT_THAT(end_of(setup), HasSubstr("the energy grew by"));
   setup.limits.max_lost_fraction = 0.05;
   EXPECT_THAT(end_of(setup), HasSubstr("has left the domain")) << "nothing leaves: nothing is tested";
+}
+
+// Wrong signs: viscosity that drives, and diffusion that gathers, are found within 20 steps.
+TEST(Watch, FindsAWrongSignWithinTwentySteps) {
+  SimulationSetup driven = testing_tools::spinning_block(0);
+  testing_tools::Random random(2);
+  for (Vec3d& v : driven.particles.velocity) v = random.vector(0.01);
+  EXPECT_EQ(end_of(driven, 20), "");
+  for (FluidSetup& f : driven.fluids) f.rheology = {RheologyKind::newtonian, {Real(-1)}};
+  EXPECT_THAT(end_of(driven, 20), HasSubstr("viscosity gave the fluid"));
+  SimulationSetup gathering = dam();
+  gathering.numerics.density_diffusion = -1;
+  EXPECT_THAT(end_of(gathering, 20), HasSubstr("the energy grew by"));
+}
+
+// Without gravity there is no weight to measure a growth by: jittered particles under pressure in a closed box,
+// whose arrangement relaxes, and a drop that bounces.
+TEST(Watch, LetsABoxWithoutGravityGoOn) {
+  SimulationSetup setup = testing_tools::flat_tank(testing_tools::oil());
+  setup.gravity = {};
+  testing_tools::Random random(4);
+  for (Vec3d& x : setup.particles.position) {
+    const Vec3d shift = random.vector(0.2 * testing_tools::dx);
+    x.x += shift.x, x.z += shift.z;
+  }
+  setup.particles.pressure.assign(setup.particles.pressure.size(), 1000);
+  const std::vector<Vec3d> floor = setup.walls.position;
+  for (const Vec3d& x : floor)
+    testing_tools::add_wall(setup, {x.x, x.y, 0.06 - x.z}, {0, 0, -1}, -x.z);
+  EXPECT_EQ(end_of(setup, 400), "");
+}
+
+TEST(Watch, LetsADropBounce) {
+  for (const double speed : {0.2, 0.7, 2.0}) {
+    SimulationSetup setup = testing_tools::flat_tank(testing_tools::oil());
+    setup.particles = {};
+    testing_tools::add_particle(setup, {0.041, 0.005, 0.02},
+                                {0, 0, -speed}, 0);
+    setup.limits.max_compression = 0.5;
+    EXPECT_EQ(end_of(setup, 200), "") << speed;
+  }
 }
 
 // Heavy fluid over light fluid has the same weight as the other way round.
