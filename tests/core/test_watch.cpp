@@ -83,7 +83,7 @@ TEST(Watch, EndsARunWhoseEnergyGrowsWithoutASource) {
 
 // What leaves takes its energy with it, and must not hide that the rest gains some.
 TEST(Watch, SeesEnergyGrowWhileParticlesLeave) {
-  SimulationSetup setup = released_block(2.5, 0);
+  SimulationSetup setup = released_block(3.5, 0);
   for (Vec3d& v : setup.particles.velocity) v.x = -0.05;
   setup.domain.lower.x = -0.046;
   EXPECT_THAT(end_of(setup), HasSubstr("the energy grew by"));
@@ -100,7 +100,8 @@ TEST(Watch, FindsAWrongSignWithinTwentySteps) {
   for (FluidSetup& f : driven.fluids) f.rheology = {RheologyKind::newtonian, {Real(-1)}};
   EXPECT_THAT(end_of(driven, 20), HasSubstr("viscosity gave the fluid"));
   SimulationSetup gathering = dam();
-  gathering.numerics.density_diffusion = -1;
+  gathering.numerics.density_diffusion = -0.3;
+  gathering.limits.max_speed = gathering.limits.max_compression = 1e9;
   EXPECT_THAT(end_of(gathering, 20), HasSubstr("the energy grew by"));
 }
 
