@@ -43,8 +43,8 @@ struct DensityAndShear {
     add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
     const Real denser = moved * total(sums.approach) + total(sums.squeeze);
-    excess[i] = motion.w + (kind.rest_density + smaller(Real(0), motion.w)) * denser +
-                moved * c.flow.diffusion * total(sums.diffusion);
+    excess[i] =
+        motion.w + (kind.rest_density + motion.w) * denser + moved * c.flow.diffusion * total(sums.diffusion);
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
     contact[i] = contact_pressure(c.flow, kind.rest_density, least(sums.distance));
   }
@@ -81,8 +81,7 @@ struct DensityAndShear {
 
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
-                   travelled = in_lanes(moved * centre.velocity),
-                   hydrostatic = in_lanes(c.flow.gravity);
+                   travelled = in_lanes(moved * centre.velocity), hydrostatic = in_lanes(c.flow.gravity);
     const Lanes half = Real(0.5), slope = centre.rest_density * inverse_stiffness;
     const bool walls_move = c.wall.moved.size > 0;
     const Offset first = c.wall_list.row(i);
@@ -91,6 +90,7 @@ struct DensityAndShear {
       const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
       LaneVec3 change = travelled, falls = hydrostatic;
       QuadLanes other = gather(c.wall.velocity, j);
+      if (!walls_move) change = change - Lanes(moved) * xyz(other);
       if (walls_move) {
         const LaneVec3 gain = xyz(gather(c.wall.acceleration, j));
         change = change - xyz(gather(c.wall.moved, j));
@@ -110,7 +110,8 @@ struct DensityAndShear {
       sums.diffusion -= select(pressure > -wall_tension_limits(c, j), weight * difference, Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const WallPairGeometry<Lanes, QuadLanes> now{d + half * change, pair.normal, pair.back};
-      sums.distance = smaller(sums.distance, select(near, distance_before(now, c.flow.spacing), sums.distance));
+      sums.distance =
+          smaller(sums.distance, select(near, distance_before(now, c.flow.spacing), sums.distance));
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
       const Lanes dissipated =
@@ -124,14 +125,14 @@ struct StateFromDensity {
   Span<const FluidConstants> fluids;
   FlowConstants flow;
   Span<const std::uint8_t> fluid;
-  Span<const Real> excess, shear_rate;
+  Span<const Real> excess, shear_rate, packing;
   Span<Quad> place, motion, state;
   Span<Real> pressure;
 
   HOST_DEVICE void operator()(Index i) const {
     const FluidConstants& f = fluids[fluid[i]];
     const Real p = larger(flow.sound_speed_squared * excess[i], -flow.tension_limit);
-    const Real volume = f.volume(excess[i]);
+    const Real volume = f.volume(excess[i], packing[i]);
     motion[i].w = excess[i];
     place[i].w = volume;
     pressure[i] = p;
@@ -149,14 +150,13 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
     launch(
         context, "density and shear rate", fluid.count,
         DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, moved, 1 / c.flow.sound_speed_squared,
-                                             scratch.span(), fluid.shear_rate.span(),
-                                             fluid.contact.span()});
+                                             scratch.span(), fluid.shear_rate.span(), fluid.contact.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
-  launch(
-      context, "state", fluid.count,
-      StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
-                       fluid.place.span(), fluid.motion.span(), fluid.state.span(), fluid.pressure.span()});
+  launch(context, "state", fluid.count,
+         StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
+                          fluid.packing.span(), fluid.place.span(), fluid.motion.span(), fluid.state.span(),
+                          fluid.pressure.span()});
 }
 
 }  // namespace slagflow

@@ -20,8 +20,9 @@ struct PairContext {
 };
 
 // Advances the density over the last step, which took `moved` seconds, with
-//   d rho_i/dt = min(rho_i, rho0_i) sum_j V_j (v_i - v_j).grad W_ij
-//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho0_j) - (rho_i - rho0_i) + f_ij.(x_j - x_i)/c0^2],
+//   d rho_i/dt = rho_i sum_j V_j (v_i - v_j).grad W_ij
+//              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho0_j) - (rho_i - rho0_i) + f_ij.(x_j -
+//              x_i)/c0^2],
 // f_ij the mean force per volume of the pair by pressure in the last step, so that f/c0^2 is minus the
 // smooth gradient of the density: what diffuses is noise between neighbours, not the gradient that holds
 // gravity, viscosity, a yield stress or surface tension. Wall pairs have rho0_i (a_w - g) for f_ij: theirs is

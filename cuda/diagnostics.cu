@@ -27,7 +27,8 @@ struct PotentialEnergy {
   }
 };
 
-// Of the equation of state: m c0^2 (rho - rho0)^2 / (2 rho0^2), no more of it beyond the tension limit.
+// Of the equation of state: int p m/rho^2 d rho = m c0^2 [ln(1 + s) - s/(1 + s)], s = rho/rho0 - 1, about
+// m c0^2 s^2/2; no more of it beyond the tension limit.
 struct ElasticEnergy {
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> kind;
@@ -38,7 +39,11 @@ struct ElasticEnergy {
     const auto rest = static_cast<double>(f.rest_density);
     const double least = -tension_limit / (rest * square(sound_speed));
     const double strain = larger(least, static_cast<double>(motion[i].w) / rest);
-    return 0.5 * static_cast<double>(f.mass) * square(sound_speed * strain);
+    // The difference of small strains as a series, s^2/2 - 2 s^3/3 + 3 s^4/4.
+    const double energy = std::fabs(strain) < 1e-3
+                              ? square(strain) * (0.5 - strain * (2.0 / 3 - 0.75 * strain))
+                              : std::log1p(strain) - strain / (1 + strain);
+    return static_cast<double>(f.mass) * square(sound_speed) * energy;
   }
 };
 

@@ -154,6 +154,7 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
   reorder(f.state, spare_quad_, n);
   reorder(f.id, spare_index_, n);
   reorder(f.fluid, spare_kind_, n);
+  reorder(f.packing, spare_real_, n);
   reorder(f.pressure, spare_real_, n);
   reorder(f.shear_rate, spare_real_, n);
   f.resize(left);

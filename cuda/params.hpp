@@ -54,11 +54,11 @@ struct FluidConstants {
   Real mass;          // of a particle [kg]
   Rheology rheology;
 
-  // Of a particle whose density is above that of rest by `excess`. Compressed particles stand as far apart as
-  // the lattice of the start, so their volume is that of the lattice site; those thinned out take more, up to
-  // twice as much: the pressure of a neighbour acts on a particle in proportion to its volume.
-  HOST_DEVICE Real volume(Real excess) const {
-    return mass / (rest_density + smaller(Real(0), larger(excess, Real(-0.5) * rest_density)));
+  // Of a particle whose density is above that of rest by `excess`. `packing`: its density at the start over
+  // that at rest, as the lattice of the start has one volume whatever the pressure. Thin fluid takes at most
+  // twice its volume: the pressure of a neighbour acts on a particle in proportion to it.
+  HOST_DEVICE Real volume(Real excess, Real packing) const {
+    return packing * mass / (rest_density + larger(excess, Real(-0.5) * rest_density));
   }
 };
 

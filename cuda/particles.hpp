@@ -17,6 +17,7 @@ struct FluidArrays {
         increment(c, "fluid viscous increments"),
         last_increment(c, "fluid viscous increments"),
         by_pressure(c, "fluid pressure accelerations"),
+        packing(c, "fluid packings"),
         id(c, "fluid ids"),
         fluid(c, "fluid kinds"),
         state(c, "fluid states"),
@@ -30,7 +31,9 @@ struct FluidArrays {
   Buffer<Quad> motion;          // xyz: velocity [m/s], w: density - rest density [kg/m^3]
   Buffer<Quad> increment;       // xyz: first guess of what the next viscous solve adds to the velocity [m/s]
   Buffer<Quad> last_increment;  // xyz: what the last one added [m/s]
-  Buffer<Quad> by_pressure;     // xyz: force per volume by pressure in the last step [N/m^3], w: see predictor.hpp
+  Buffer<Quad>
+      by_pressure;       // xyz: force per volume by pressure in the last step [N/m^3], w: see predictor.hpp
+  Buffer<Real> packing;  // density at the start over that at rest
   Buffer<Index> id;
   Buffer<std::uint8_t> fluid;  // index of the fluid
   // Set anew each step:
@@ -42,7 +45,7 @@ struct FluidArrays {
   void resize(Index n) {
     count = n;
     position.resize(n), place.resize(n), motion.resize(n), increment.resize(n), last_increment.resize(n),
-        by_pressure.resize(n);
+        by_pressure.resize(n), packing.resize(n);
     id.resize(n), fluid.resize(n), state.resize(n), pressure.resize(n), shear_rate.resize(n);
     contact.resize(n);
   }
@@ -66,7 +69,8 @@ struct WallArrays {
       place;  // xyz: position [m] relative to the domain's lower corner, w: 1 in a wall that vanished
   Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
   Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
-  Buffer<Quad> velocity;  // xyz: velocity of the surface in this step [m/s], w: slip length [m], 0 no slip, < 0 free slip
+  Buffer<Quad> velocity;  // xyz: velocity of the surface in this step [m/s], w: slip length [m], 0 no slip, <
+                          // 0 free slip
   // Empty where no wall ever moves:
   Buffer<Quad> acceleration;   // xyz: of the wall's material [m/s^2]
   Buffer<Quad> moved;          // xyz: displacement in the last step [m]
@@ -101,9 +105,9 @@ inline FluidView view(const FluidArrays& f) {
 }
 
 inline WallView view(const WallArrays& w) {
-  return {w.count,           w.place.span(),         w.normal.span(),
-          w.back.span(),     w.velocity.span(),      w.acceleration.span(),
-          w.moved.span(),    w.pressure.span(),      w.tension_limit.span(),
+  return {w.count,        w.place.span(),    w.normal.span(),
+          w.back.span(),  w.velocity.span(), w.acceleration.span(),
+          w.moved.span(), w.pressure.span(), w.tension_limit.span(),
           w.id.span()};
 }
 

@@ -59,8 +59,8 @@ struct PredictAndAssemble {
     finish(i, own, push, part, total(diagonal));
   }
 
-  // Forces by pressure [N]: what the elastic energy of the fluid balances, and the rest, by pairing and by the
-  // pressure of walls.
+  // Forces by pressure [N]: what the elastic energy of the fluid balances, and the rest, by pairing and by
+  // the pressure of walls.
   struct Push {
     Vec3 elastic, given;
   };
@@ -70,8 +70,7 @@ struct PredictAndAssemble {
   };
 
   HOST_DEVICE WallPart walls(Index i, Vec3 x, Quad own, Push& push) const {
-    const Real factor =
-        implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+    const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
     LaneVec3 elastic, given, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);

@@ -80,12 +80,14 @@ void Simulation::State::upload_fluid() {
   std::vector<Vec3d> position(n);
   std::vector<Quad> place(n), motion(n), by_pressure(n), state(n);
   std::vector<Index> id(n);
+  std::vector<Real> packing(n);
   std::vector<std::int64_t> count(setup.fluids.size());
   for (std::size_t i = 0; i < n; ++i) {
     const auto& f = constants[p.fluid[i]];
     const auto excess = static_cast<Real>(p.pressure[i] / c2);
     position[i] = p.position[i] - setup.domain.lower;
-    place[i] = quad(to_real(position[i]), f.volume(excess));
+    packing[i] = 1 + excess / f.rest_density;
+    place[i] = quad(to_real(position[i]), f.volume(excess, packing[i]));
     by_pressure[i] = quad(-f.rest_density * to_real(setup.gravity), 0);
     state[i] = {static_cast<Real>(p.pressure[i]), viscosity(f.rheology, 0), place[i].w, f.mass};
     motion[i] = quad(to_real(p.velocity[i]), excess);
@@ -98,7 +100,7 @@ void Simulation::State::upload_fluid() {
   fluids.upload(constants);
   fluid.resize(static_cast<Index>(n));
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
-      fluid.id.upload(id);
+      fluid.packing.upload(packing), fluid.id.upload(id);
   fluid.fluid.upload(p.fluid);
   fluid.increment.upload(std::vector<Quad>(n)), fluid.last_increment.upload(std::vector<Quad>(n));
   fluid.by_pressure.upload(by_pressure);
@@ -187,9 +189,7 @@ PairContext Simulation::State::pairs() const {
   return c;
 }
 
-WallWork Simulation::State::wall_work() {
-  return knows_wall_forces() ? wall_forces.work() : WallWork{};
-}
+WallWork Simulation::State::wall_work() { return knows_wall_forces() ? wall_forces.work() : WallWork{}; }
 
 void Simulation::State::look() {
   Section timer(context, "watch");

@@ -75,7 +75,8 @@ void visit_arrays(Visitor& v, State& s) {
   FluidArrays& f = s.fluid;
   v.array("position", f.position), v.array("place", f.place), v.array("motion", f.motion);
   v.array("increment", f.increment), v.array("last_increment", f.last_increment),
-      v.array("by_pressure", f.by_pressure), v.array("id", f.id), v.array("fluid", f.fluid);
+      v.array("by_pressure", f.by_pressure), v.array("packing", f.packing), v.array("id", f.id),
+      v.array("fluid", f.fluid);
   v.array("state", f.state), v.array("pressure", f.pressure), v.array("shear_rate", f.shear_rate);
   v.array("wall_pressure", s.wall.pressure), v.array("wall_impulse", s.wall_forces.impulses());
   v.array("list_places", s.list_places);
@@ -86,10 +87,11 @@ void visit_arrays(Visitor& v, State& s) {
 // is false in a checkpoint shows as a state that cannot go on.
 void require_possible(const SavedNumbers& v) {
   const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
-                        v.full_dt > 0 && std::isfinite(v.full_dt) && v.last_dt >= 0 && std::isfinite(v.last_dt) &&
-                        v.list_time >= 0 && v.list_time <= v.time && std::isfinite(v.displacement) &&
-                        std::isfinite(v.taken) && std::isfinite(v.given) && std::isfinite(v.capillary_work) && v.steps >= 0 &&
-                        v.builds >= 0 && v.solver_steps >= 0;
+                        v.full_dt > 0 && std::isfinite(v.full_dt) && v.last_dt >= 0 &&
+                        std::isfinite(v.last_dt) && v.list_time >= 0 && v.list_time <= v.time &&
+                        std::isfinite(v.displacement) && std::isfinite(v.taken) && std::isfinite(v.given) &&
+                        std::isfinite(v.capillary_work) && v.steps >= 0 && v.builds >= 0 &&
+                        v.solver_steps >= 0;
   if (!possible) throw Error("checkpoint: its numbers are not those of a run");
 }
 
@@ -168,8 +170,8 @@ void Simulation::restore(const SavedState& saved) {
   const Offset n = s.fluid.id.size();
   const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
                     s.fluid.increment.size() == n && s.fluid.last_increment.size() == n &&
-                    s.fluid.by_pressure.size() == n && s.fluid.fluid.size() == n &&
-                    s.fluid.state.size() == n && s.fluid.pressure.size() == n &&
+                    s.fluid.by_pressure.size() == n && s.fluid.packing.size() == n &&
+                    s.fluid.fluid.size() == n && s.fluid.state.size() == n && s.fluid.pressure.size() == n &&
                     s.fluid.shear_rate.size() == n && s.list_places.size() == n &&
                     s.wall.pressure.size() == walls && s.departed.size() == kinds &&
                     s.planes.records.size() == planes && s.wall_forces.impulses().size() == impulses;

@@ -30,8 +30,8 @@ void Simulation::State::choose_time_step() {
   if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
 }
 
-// Velocities are half a step behind the places, as in the leapfrog scheme: from the middle of the last step to
-// that of this one. So a fall is g t^2/2 to round-off, and steps of any length follow each other.
+// Velocities are half a step behind the places, as in the leapfrog scheme: from the middle of the last step
+// to that of this one. So a fall is g t^2/2 to round-off, and steps of any length follow each other.
 double Simulation::State::velocity_step() const { return 0.5 * (last_dt + dt); }
 
 // A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
@@ -161,9 +161,10 @@ bool Simulation::State::knows_wall_forces() const {
 void Simulation::State::add_wall_forces() {
   if (!knows_wall_forces()) return;
   Section timer(context, "wall forces");
-  wall_forces.add(viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
-                  {solve_step.dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
-                   viscous.wall_yield(), surface_tension.view(), &viscous.record()->solve});
+  wall_forces.add(
+      viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
+      {solve_step.dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
+       viscous.wall_yield(), surface_tension.view(), &viscous.record()->solve});
 }
 
 void Simulation::State::shift() {

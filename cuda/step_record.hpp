@@ -7,8 +7,8 @@ namespace slagflow {
 
 struct StepRecord {
   SolveState solve;
-  double taken = 0;  // energy that viscous forces take from the fluid in the step [J]
-  double given = 0;  // energy that pairing and walls give it by pressure [J]
+  double taken = 0;                 // energy that viscous forces take from the fluid in the step [J]
+  double given = 0;                 // energy that pairing and walls give it by pressure [J]
   double capillary_power = 0;       // of surface tension during the step [W]
   double displacement_squared = 0;  // largest since the lists were built [m^2]
   double approach = 0;              // largest of two cells beyond the skin of the lists [m]

@@ -67,13 +67,13 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
                   "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
                       "; limits.max_compression is " + number(limits.max_compression),
                   density_excess,
-                  "numerics.sound_speed = " + number(stiff_enough(vitals.max_compression)) +
-                      " (it is " + number(setup_.numerics.sound_speed) + " m/s) or a smaller courant");
+                  "numerics.sound_speed = " + number(stiff_enough(vitals.max_compression)) + " (it is " +
+                      number(setup_.numerics.sound_speed) + " m/s) or a smaller courant");
   check_energy(vitals, now);
 }
 
-// [m/s] The compression by an impact falls as one over the sound speed, that by weight or speed faster. In two
-// digits, with a tenth to spare.
+// [m/s] The compression by an impact falls as one over the sound speed, that by weight or speed faster. In
+// two digits, with a tenth to spare.
 double Watch::stiff_enough(double compression) const {
   const double wanted = 1.1 * setup_.numerics.sound_speed * compression / setup_.limits.max_compression;
   const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
@@ -81,24 +81,24 @@ double Watch::stiff_enough(double compression) const {
 }
 
 // Kinetic, stored and dissipated energy, less the work of moving walls and what pairing and walls gave, can
-// only fall; potential energy counts from the lowest point of the domain, so that a particle that leaves takes
-// energy with it and never adds any. The measure of what is a growth: kinetic and dissipated energy
+// only fall; potential energy counts from the lowest point of the domain, so that a particle that leaves
+// takes energy with it and never adds any. The measure of what is a growth: kinetic and dissipated energy
 // themselves, lifting all fluid by one spacing, and a thousandth of the elastic energy for rounding. On a
 // periodic axis along the force the potential has no single value.
 void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   const Vec3d force = setup_.gravity + setup_.body_acceleration;
   for (int k = 0; k < 3; ++k)
     if (setup_.domain.periodic[static_cast<std::size_t>(k)] && force[k] != 0) return;
-  const double energy =
-      vitals.kinetic_energy + vitals.stored_energy + now.dissipated - now.work - now.given;
+  const double energy = vitals.kinetic_energy + vitals.stored_energy + now.dissipated - now.work - now.given;
   // Places and velocities are half a step apart, so that a particle which bounces may be off by what it
   // exchanges in a step.
   const double unsure = std::fabs(now.just_given), sure_energy = energy - unsure;
   lowest_energy = smaller(lowest_energy, energy + unsure);
   // The work of walls is known to some ten per cent only: their pressure is too low next to the free surface.
   constexpr double work_weight = 3;
-  const double scale = vitals.kinetic_energy + larger(now.dissipated, 0.0) + work_weight * std::fabs(now.work) +
-                       mass_ * norm(force) * setup_.spacing + 1e-3 * vitals.elastic_energy;
+  const double scale = vitals.kinetic_energy + larger(now.dissipated, 0.0) +
+                       work_weight * std::fabs(now.work) + mass_ * norm(force) * setup_.spacing +
+                       1e-3 * vitals.elastic_energy;
   const double growth = (sure_energy - lowest_energy) / scale;
   if (growth > setup_.limits.max_energy_growth)
     fail(now,
@@ -114,9 +114,8 @@ void Watch::check_dissipated(const WatchMoment& now, double scale) const {
   const double most = setup_.limits.max_energy_growth * (scale + std::fabs(now.dissipated));
   if (-now.dissipated > most)
     fail(now,
-         "viscosity gave the fluid " + number(-now.dissipated) +
-             " J; limits.max_energy_growth = " + number(setup_.limits.max_energy_growth) + " allows " +
-             number(most) + " J",
+         "viscosity gave the fluid " + number(-now.dissipated) + " J; limits.max_energy_growth = " +
+             number(setup_.limits.max_energy_growth) + " allows " + number(most) + " J",
          "a smaller numerics.tolerance");
 }
 

@@ -57,6 +57,7 @@ struct Particle {
   Vec by_pressure;    // force per volume in the last step
   double excess = 0;  // density - rest density
   double volume = 0, mass = 0, pressure = 0, viscosity = 0;
+  double packing = 1;      // density at the start over that at rest
   double contact = -1e30;  // the least pressure towards walls
   int fluid = 0;
 };
@@ -67,7 +68,7 @@ struct Wall {
   Vec back_normal;
   double back_depth = 0;  // below the opposite face of a thin plate; 0: there is none
   bool sticks = true;
-  double slip_length = 0;  // Navier's, of a wall that sticks in part
+  double slip_length = 0;     // Navier's, of a wall that sticks in part
   Vec acceleration, moved;    // moved: in the last step
   double tension_limit = -1;  // < 0: the world's
 };
@@ -81,13 +82,11 @@ struct World {
   std::vector<Fluid> fluids;
   std::vector<Particle> particles;
   std::vector<Wall> walls;
+  bool walls_move = false;  // else what they have moved is that of their surfaces
 
+  Vec moved(const Wall& wall, double dt) const { return walls_move ? wall.moved : dt * wall.v; }
   const Fluid& kind(const Particle& p) const { return fluids[static_cast<std::size_t>(p.fluid)]; }
   double density(const Particle& p) const { return kind(p).rest_density + p.excess; }
-  // Compressed particles keep the volume of the lattice; thin ones take up to twice as much.
-  double volume(const Particle& p) const {
-    return p.mass / std::min(kind(p).rest_density, std::max(density(p), kind(p).rest_density / 2));
-  }
   double limit(const Wall& wall) const { return wall.tension_limit < 0 ? tension_limit : wall.tension_limit; }
   // Of a particle, towards a wall with a limit of its own.
   double pressure_towards(const Wall& wall, const Particle& p) const {
@@ -140,14 +139,14 @@ inline double slope_over_distance(const World& w, double r) {
 }
 
 // Change of the density of particle i over a step of dt that has brought all to where they are: continuity
-// and density diffusion (numerics.md, section 0), with the pairs where they were half-way. Walls take part with
-// the density that their pressure has in the fluid's equation of state. Between fluids, what diffuses is the
-// excess over each one's rest density: otherwise their interface would.
+// and density diffusion (numerics.md, section 0), with the pairs where they were half-way. Walls take part
+// with the density that their pressure has in the fluid's equation of state. Between fluids, what diffuses is
+// the excess over each one's rest density: otherwise their interface would.
 inline Sum density_change(const World& w, std::size_t i, double dt) {
   const Particle& p = w.particles[i];
   const double c2 = w.sound_speed * w.sound_speed, rest = w.kind(p).rest_density;
   const double strength = 2 * w.diffusion * (w.support / 2) * w.sound_speed;
-  const double density = std::min(rest, w.density(p));
+  const double density = w.density(p);
   Sum sum;
   // `moved`: what the step has added to d; `balanced`: minus the force per volume by pressure
   auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced) {
@@ -159,14 +158,20 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
     sum.add(dt * strength * volume * -f * (excess - p.excess - smooth),
             dt * strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
   };
-  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
-    pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure));
-  }, reach_before);
-  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
-    const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
-    pair(d, w.wall_volume(), dt * p.v - j.moved, cut ? p.excess : j.pressure / c2,
-         cut ? Vec{} : rest * (w.gravity - j.acceleration));
-  }, reach_before);
+  for_fluid_pairs(
+      w, i,
+      [&](const Particle& j, Vec d) {
+        pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure));
+      },
+      reach_before);
+  for_wall_pairs(
+      w, i,
+      [&](const Wall& j, Vec d) {
+        const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
+        pair(d, w.wall_volume(), dt * p.v - w.moved(j, dt), cut ? p.excess : j.pressure / c2,
+             cut ? Vec{} : rest * (w.gravity - j.acceleration));
+      },
+      reach_before);
   return sum;
 }
 
@@ -181,8 +186,8 @@ inline double no_slip_factor(const World& w, const Wall& wall, Vec d) {
   return before_back ? factor(wall.back_normal, wall.back_depth) : factor(wall.normal, wall.depth);
 }
 
-// gamma_i^2 of the step of dt that has brought all to where they are. Of a pair of two fluids each has the share
-// of the strain that its viscosity gives it under a common stress.
+// gamma_i^2 of the step of dt that has brought all to where they are. Of a pair of two fluids each has the
+// share of the strain that its viscosity gives it under a common stress.
 inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
   const Particle& p = w.particles[i];
   Sum sum;
@@ -195,16 +200,22 @@ inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
     sum.add(factor * std::pow(dot(p.v - velocity, half_way), 2),
             factor * dot(p.v - velocity, p.v - velocity) * r2);
   };
-  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
-    const double share = p.fluid == j.fluid ? 1 : 2 * j.viscosity / (p.viscosity + j.viscosity);
-    pair(d, share * share * j.volume, j.v, dt * (p.v - j.v));
-  }, reach_before);
-  for_wall_pairs(w, i, [&](const Wall& j, Vec d) {  // i carries all that the pair dissipates
-    const Vec half_way = d - 0.5 * (dt * p.v - j.moved);
-    if (j.sticks)
-      pair(d, 2 * no_slip_factor(w, j, half_way) * w.wall_volume(), j.v - dt * j.acceleration,
-           dt * p.v - j.moved);
-  }, reach_before);
+  for_fluid_pairs(
+      w, i,
+      [&](const Particle& j, Vec d) {
+        const double share = p.fluid == j.fluid ? 1 : 2 * j.viscosity / (p.viscosity + j.viscosity);
+        pair(d, share * share * j.volume, j.v, dt * (p.v - j.v));
+      },
+      reach_before);
+  for_wall_pairs(
+      w, i,
+      [&](const Wall& j, Vec d) {  // i carries all that the pair dissipates
+        const Vec half_way = d - 0.5 * (dt * p.v - w.moved(j, dt));
+        if (j.sticks)
+          pair(d, 2 * no_slip_factor(w, j, half_way) * w.wall_volume(), j.v - dt * j.acceleration,
+               dt * p.v - w.moved(j, dt));
+      },
+      reach_before);
   return sum;
 }
 
@@ -213,8 +224,10 @@ inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
 inline double contact_pressure(const World& w, std::size_t i) {
   double distance = 1e30;
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
-    const double height = dot(d, j.normal), aside = std::sqrt(std::max(0.0, dot(d, d) - height * height));
-    if (height <= 0 || aside >= 0.75 * w.spacing) return;
+    const double height = dot(d, j.normal);
+    const Vec aside = d - height * j.normal;
+    const double most = std::max({std::fabs(aside.x), std::fabs(aside.y), std::fabs(aside.z)});
+    if (height <= 0 || most >= 0.51 * w.spacing) return;
     double from_surface = height - j.depth;
     if (j.back_depth > 0) from_surface = std::max(from_surface, dot(d, j.back_normal) - j.back_depth);
     distance = std::min(distance, from_surface);
@@ -240,8 +253,8 @@ inline Sum wall_pressure(const World& w, const Wall& wall) {
   return {{std::max(sum.value.x / weights, -w.limit(wall)), 0, 0}, sum.size / weights};
 }
 
-// Acceleration by gravity, body force and pressure, with the term that keeps pairs apart. `given`: the part of
-// it by that term and by the pressure of walls.
+// Acceleration by gravity, body force and pressure, with the term that keeps pairs apart. `given`: the part
+// of it by that term and by the pressure of walls.
 inline Sum acceleration(const World& w, std::size_t i, Vec* given = nullptr) {
   const Particle& p = w.particles[i];
   const double at_spacing = lucy(w.spacing, w.support, w.dimensions);
@@ -258,8 +271,7 @@ inline Sum acceleration(const World& w, std::size_t i, Vec* given = nullptr) {
   auto give = [&](Vec a) {
     if (given) *given = *given + a;
   };
-  for_fluid_pairs(
-      w, i, [&](const Particle& j, Vec d) { give(pair(d, j.volume, p.pressure, j.pressure)); });
+  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { give(pair(d, j.volume, p.pressure, j.pressure)); });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
     const double elastic = w.pressure_towards(j, p), own = std::max(elastic, p.contact);
     const double volumes = p.volume * w.wall_volume() / p.mass, f = slope_over_distance(w, length(d));

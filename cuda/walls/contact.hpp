@@ -23,12 +23,15 @@ HOST_DEVICE inline Real contact_pressure(const FlowConstants& flow, Real rest_de
 // where it does not stand between the two or above. Inside a thin plate the face that is nearer counts.
 template <class T, class Face>  // Real and Quad, or Lanes and QuadLanes
 HOST_DEVICE T distance_before(const WallPairGeometry<T, Face>& pair, Real spacing) {
-  constexpr Real width = Real(0.75), none = Real(1e30);  // width [spacings] of what a wall particle carries
+  // What a wall particle carries reaches half a spacing aside along each axis. Any further, and a surface
+  // would go on beyond its edge and throw out what falls past it.
+  constexpr Real width = Real(0.51), none = Real(1e30);
   const Vector3<T> d = pair.fluid_minus_wall;
   const T height = dot(d, xyz(pair.normal)), front = height - pair.normal.w;
   const T distance = select(pair.back.w > T(0), larger(front, dot(d, xyz(pair.back)) - pair.back.w), front);
-  const auto above = (dot(d, d) - square(height) < T(square(width * spacing))) & (height > T(0));
-  return select(above, distance, T(none));
+  const Vector3<T> aside = d - height * xyz(pair.normal);
+  const T most = larger(larger(magnitude(aside.x), magnitude(aside.y)), magnitude(aside.z));
+  return select((most < T(width * spacing)) & (height > T(0)), distance, T(none));
 }
 
 }  // namespace slagflow

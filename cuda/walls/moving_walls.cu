@@ -11,6 +11,7 @@ HOST_DEVICE Quad turned(const Rotation& r, Quad q) { return quad(to_real(r * to_
 
 struct PlaceWall {
   double inverse_dt;
+  Real last_dt;
   Span<const WallPose> poses;
   Span<const std::uint8_t> body;
   Span<const Vec3d> start;
@@ -21,13 +22,17 @@ struct PlaceWall {
   HOST_DEVICE void operator()(Index i) const {
     const Index k = id[i];
     const WallPose& pose = poses[body[k]];
-    if (!pose.moves) return;
+    // A surface that moves while its shape stays takes the fluid along as if its material had come with it.
+    if (!pose.moves) {
+      moved[i] = quad(last_dt * xyz(velocity[i]), 0);
+      return;
+    }
     const Vec3d arm = start[k] - pose.center, x = pose.target + pose.turn * arm;
     const Quad n = start_normal[k], along = turned(pose.turn, start_velocity[k]);
     const Vec3d surface = arm + static_cast<double>(n.w) * to_double(xyz(n));
     const Vec3d v = inverse_dt * (pose.shift_gain + pose.turn_gain * surface);
     place[i] = quad(to_real(x), pose.removed ? Real(1) : Real(0));
-    moved[i] = quad(to_real(pose.shift_gained + pose.turn_gained * arm), 0);
+    moved[i] = quad(to_real(pose.shift_gained + pose.turn_gained * arm) + last_dt * xyz(along), 0);
     normal[i] = turned(pose.turn, n);
     back[i] = turned(pose.turn, start_back[k]);
     velocity[i] = quad(to_real(v) + xyz(along), along.w);
@@ -139,9 +144,10 @@ void MovingWalls::place(const WallStep& step, WallArrays& wall) {
       speed_ = larger(speed_, norm(now[b].velocity) + radius_[b] * norm(now[b].angular_velocity));
   pose_.upload(now);
   launch(context_, "place walls", wall.count,
-         PlaceWall{1 / step.dt, pose_.span(), body_.span(), position_.span(), normal_.span(), back_.span(),
-                   velocity_.span(), wall.id.span(), wall.place.span(), wall.normal.span(), wall.back.span(),
-                   wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
+         PlaceWall{1 / step.dt, static_cast<Real>(step.last_dt), pose_.span(), body_.span(), position_.span(),
+                   normal_.span(), back_.span(), velocity_.span(), wall.id.span(), wall.place.span(),
+                   wall.normal.span(), wall.back.span(), wall.velocity.span(), wall.acceleration.span(),
+                   wall.moved.span()});
 }
 
 Vec3d MovingWalls::position_at(Vec3d position, std::size_t body, double time) const {

@@ -42,16 +42,15 @@ struct AddImpulse {
     const Real r = std::sqrt(r2), f = smoothing.gradient(r);
     const WallPressures<Real> p = towards_walls(c, i, own.x, wall_tension_limit(c, w));
     const Real volumes = -dt * own.z * c.flow.wall_volume * f;
-    Vec3d pressure = to_double(
-        (volumes * pair_pressure(c.flow, smoothing, p.fluid, c.wall.pressure[w], r)) * d);
+    Vec3d pressure =
+        to_double((volumes * pair_pressure(c.flow, smoothing, p.fluid, c.wall.pressure[w], r)) * d);
     if (capillary.any())
       pressure += to_double(dt * capillary_pull(capillary, tension_weight, i, d, r, c.flow.wall_volume));
     Vec3d viscous;
     if (wall.w >= 0) {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
       const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
-      const Real factor =
-          dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+      const Real factor = dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
       const Real weight = -factor * stick * f / (r2 + c.flow.softening);
       const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
       viscous = to_double(couple(c.flow.coupling, weight, d, xyz(wall) - mean));

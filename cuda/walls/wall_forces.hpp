@@ -42,9 +42,9 @@ class WallForces {
 
   // Of each wall particle, in the order of ids; what a checkpoint keeps.
   struct Impulse {
-    Vec3d pressure, viscous;                // [N s]
-    Vec3d pressure_torque, viscous_torque;  // [N m s] about the lower corner of the domain
-    double work = 0;                        // [J]
+    Vec3d pressure, viscous;                    // [N s]
+    Vec3d pressure_torque, viscous_torque;      // [N m s] about the lower corner of the domain
+    double work = 0;                            // [J]
     double viscous_work = 0, elastic_work = 0;  // [J] of it, see WallWork
   };
   Buffer<Impulse>& impulses() { return impulse_; }

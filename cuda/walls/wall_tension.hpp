@@ -1,5 +1,5 @@
-// What a fluid particle and walls press on each other with, and adhesion: walls that bear another tension than
-// the fluid does.
+// What a fluid particle and walls press on each other with, and adhesion: walls that bear another tension
+// than the fluid does.
 #pragma once
 
 #include "density.hpp"

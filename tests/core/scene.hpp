@@ -110,6 +110,7 @@ class Scene {
 
   // Copies `world` to the device, sorts it and builds the lists. Call after the last change by hand.
   void upload() {
+    world.walls_move = walls_move;
     fluids.upload(fluid_constants(setup));
     upload_fluid();
     upload_walls();
@@ -197,7 +198,7 @@ class Scene {
           p.fluid = k < across / 2 ? 1 : 0;
           const double rest = setup.fluids[static_cast<std::size_t>(p.fluid)].rest_density;
           p.excess = rest * random_.uniform(-0.01, 0.01);
-          p.mass = rest * std::pow(spacing, o.dimensions), p.volume = p.mass / std::min(rest, rest + p.excess);
+          p.mass = rest * std::pow(spacing, o.dimensions), p.volume = p.mass / (rest + p.excess);
           p.pressure = random_.uniform(-30, 200);
           p.contact = world.particles.size() % 5 == 1 ? 10.0 * (k + 1) : -1e30;
           p.viscosity = std::pow(10, random_.uniform(-1, 2));
@@ -253,7 +254,7 @@ class Scene {
     std::vector<Quad> place, motion, by_pressure, state;
     std::vector<std::uint8_t> kind;
     std::vector<Index> id;
-    std::vector<Real> pressure;
+    std::vector<Real> pressure, packing;
     for (reference::Particle& p : world.particles) {
       p.x = rounded(p.x), p.v = rounded(p.v), p.excess = rounded(p.excess), p.pressure = rounded(p.pressure);
       p.volume = rounded(p.volume), p.mass = rounded(p.mass), p.viscosity = rounded(p.viscosity);
@@ -262,12 +263,14 @@ class Scene {
       place.push_back(to_device(p.x, p.volume)), motion.push_back(to_device(p.v, p.excess));
       by_pressure.push_back(to_device(p.by_pressure, 0));
       state.push_back(to_device({p.pressure, p.viscosity, p.volume}, p.mass));
+      packing.push_back(static_cast<Real>(p.packing));
       kind.push_back(static_cast<std::uint8_t>(p.fluid)), id.push_back(static_cast<Index>(id.size()));
       pressure.push_back(static_cast<Real>(p.pressure));
     }
     fluid.resize(static_cast<Index>(id.size()));
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
-    fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id), fluid.pressure.upload(pressure);
+    fluid.packing.upload(packing), fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id),
+        fluid.pressure.upload(pressure);
     fluid.by_pressure.upload(by_pressure), fluid.increment.upload(std::vector<Quad>(id.size())),
         fluid.last_increment.upload(std::vector<Quad>(id.size())),
         fluid.shear_rate.upload(std::vector<Real>(id.size()));

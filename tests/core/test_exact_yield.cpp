@@ -186,7 +186,8 @@ TEST(ExactYield, ABlockFallsFreelyAtAnySpeed) {
     FluidSnapshot after;
     simulation.read(after);
     // v = g t, half a step before; a velocity is rounded by half an epsilon of its size in each step.
-    const double fall = norm(s.gravity) * (simulation.time() - simulation.time_step() / 2), rounding = 60 * 6e-8 * (speed + fall);
+    const double fall = norm(s.gravity) * (simulation.time() - simulation.time_step() / 2),
+                 rounding = 60 * 6e-8 * (speed + fall);
     for (const auto& v : after.velocity) {
       EXPECT_NEAR(v.z, -fall, 1e-3 * fall + rounding);
       EXPECT_NEAR(v.x, speed, 1e-3 * fall + rounding);

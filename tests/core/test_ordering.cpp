@@ -39,20 +39,21 @@ class OrderingOf : public testing::Test {
     std::vector<Quad> place(n), motion(n), increment(n), last_increment(n), by_pressure(n), state(n);
     std::vector<Index> id(n);
     std::vector<std::uint8_t> fluid(n);
-    std::vector<Real> pressure(n), shear_rate(n);
+    std::vector<Real> pressure(n), shear_rate(n), packing(n);
     for (std::size_t i = 0; i < n; ++i) {
       const auto mark = static_cast<Real>(i);
       position[i] = particles[i].position, fluid[i] = particles[i].fluid, id[i] = static_cast<Index>(i);
       place[i] = quad(to_real(position[i]), mark + 1), motion[i] = quad({mark, 0, 0}, mark + 2);
       increment[i] = quad({0, mark, 0}, mark + 3), state[i] = quad({0, 0, mark}, mark + 4);
       last_increment[i] = quad({mark, mark, 0}, 0), by_pressure[i] = quad({0, mark, mark}, 0);
-      pressure[i] = mark + 5, shear_rate[i] = mark + 6;
+      pressure[i] = mark + 5, shear_rate[i] = mark + 6, packing[i] = mark + 7;
     }
     fluid_.resize(static_cast<Index>(n));
     fluid_.position.upload(position), fluid_.place.upload(place), fluid_.motion.upload(motion);
     fluid_.last_increment.upload(last_increment), fluid_.by_pressure.upload(by_pressure);
     fluid_.increment.upload(increment), fluid_.state.upload(state), fluid_.id.upload(id);
     fluid_.fluid.upload(fluid), fluid_.pressure.upload(pressure), fluid_.shear_rate.upload(shear_rate);
+    fluid_.packing.upload(packing);
   }
 
   Context context_;
@@ -103,7 +104,8 @@ TEST_F(OrderingOf, MovesAllArraysTogether) {
              by_pressure = download(context_, fluid_.by_pressure.span());
   const auto state = download(context_, fluid_.state.span());
   const auto pressure = download(context_, fluid_.pressure.span()),
-             rate = download(context_, fluid_.shear_rate.span());
+             rate = download(context_, fluid_.shear_rate.span()),
+             packing = download(context_, fluid_.packing.span());
   const auto kind = download(context_, fluid_.fluid.span());
   for (std::size_t i = 0; i < id_.size(); ++i) {
     const auto mark = static_cast<Real>(id_[i]);
@@ -122,6 +124,7 @@ TEST_F(OrderingOf, MovesAllArraysTogether) {
     EXPECT_EQ(state[i].w, mark + 4);
     EXPECT_EQ(pressure[i], mark + 5);
     EXPECT_EQ(rate[i], mark + 6);
+    EXPECT_EQ(packing[i], mark + 7);
   }
 }
 

@@ -105,8 +105,8 @@ TEST(Watch, FindsAWrongSignWithinTwentySteps) {
   EXPECT_THAT(end_of(gathering, 20), HasSubstr("the energy grew by"));
 }
 
-// Without gravity there is no weight to measure a growth by: jittered particles under pressure in a closed box,
-// whose arrangement relaxes, and a drop that bounces.
+// Without gravity there is no weight to measure a growth by: jittered particles under pressure in a closed
+// box, whose arrangement relaxes, and a drop that bounces.
 TEST(Watch, LetsABoxWithoutGravityGoOn) {
   SimulationSetup setup = testing_tools::flat_tank(testing_tools::oil());
   setup.gravity = {};
@@ -117,8 +117,7 @@ TEST(Watch, LetsABoxWithoutGravityGoOn) {
   }
   setup.particles.pressure.assign(setup.particles.pressure.size(), 1000);
   const std::vector<Vec3d> floor = setup.walls.position;
-  for (const Vec3d& x : floor)
-    testing_tools::add_wall(setup, {x.x, x.y, 0.06 - x.z}, {0, 0, -1}, -x.z);
+  for (const Vec3d& x : floor) testing_tools::add_wall(setup, {x.x, x.y, 0.06 - x.z}, {0, 0, -1}, -x.z);
   EXPECT_EQ(end_of(setup, 400), "");
 }
 
@@ -126,8 +125,7 @@ TEST(Watch, LetsADropBounce) {
   for (const double speed : {0.2, 0.7, 2.0}) {
     SimulationSetup setup = testing_tools::flat_tank(testing_tools::oil());
     setup.particles = {};
-    testing_tools::add_particle(setup, {0.041, 0.005, 0.02},
-                                {0, 0, -speed}, 0);
+    testing_tools::add_particle(setup, {0.041, 0.005, 0.02}, {0, 0, -speed}, 0);
     setup.limits.max_compression = 0.5;
     EXPECT_EQ(end_of(setup, 200), "") << speed;
   }
