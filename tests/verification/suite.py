@@ -1,5 +1,6 @@
 """What the comparisons are made of: runs of the program, their results, and rows of the table."""
 
+import json
 import tomllib
 from dataclasses import dataclass, field
 
@@ -125,6 +126,14 @@ class Result:
 
     def states(self):
         return [self.state(time) for time in self.times]
+
+    def last(self, name):
+        """A field of the last snapshot, such as Fluid: the place of each particle's fluid in the case."""
+        return self._folder.fluid.field(name, len(self.times) - 1)
+
+    @property
+    def summary(self):
+        return json.loads((self._folder.path / "summary.json").read_text())
 
     def fluid(self):
         """The keys of the only fluid."""
