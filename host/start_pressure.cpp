@@ -99,13 +99,13 @@ class Heads {
           }
   }
 
- const Case& c_;
-const StartSites& sites_;
-const std::vector<std::uint8_t>& fluid_;
-Vec3d gravity_;
-std::vector<double> potential_;  // -g.x of each particle's site [m^2/s^2]
-std::array<int, 3> up_{};        // step along each axis that goes up; 0: level
-std::vector<double> head_;
+  const Case& c_;
+  const StartSites& sites_;
+  const std::vector<std::uint8_t>& fluid_;
+  Vec3d gravity_;
+  std::vector<double> potential_;  // -g.x of each particle's site [m^2/s^2]
+  std::array<int, 3> up_{};        // step along each axis that goes up; 0: level
+  std::vector<double> head_;
 };
 
 bool any_hydrostatic(const Case& c) {

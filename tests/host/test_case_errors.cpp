@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "backend/error.hpp"
@@ -382,30 +381,6 @@ TEST(CaseErrors, AMessageStaysOnOneLineWhateverTheKeyHolds) {
   const std::string message = message_of(text_with(22, "\"a\\nb\" = 1"));
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_NE(message.find("a?b"), std::string::npos) << message;
-}
-
-TEST(CaseErrors, AnExactYieldStressNamesWhatItCannotGoWith) {
-  const std::string good = text_with(0, "");
-  for (const char* other :
-       {"numerics.theta=0.5", "numerics.operator=laplacian", "numerics.viscous_step=explicit"}) {
-    const std::string message = message_of(good, {"numerics.yield=exact", other});
-    EXPECT_NE(message.find("with numerics.yield = \"exact\": allowed: "), std::string::npos) << message;
-  }
-  EXPECT_EQ(message_of(good, {"numerics.yield=exact"}), "accepted");
-}
-
-TEST(CaseErrors, SpacingsThatSinglePrecisionCannotCarryAreRefusedByTheYieldModel) {
-  for (const auto& [spacing, regularised, exact] :
-       {std::tuple{"1.9e-6", false, false}, std::tuple{"2e-6", true, false},
-        std::tuple{"4.9e-6", true, false}, std::tuple{"5e-6", true, true}, std::tuple{"1e3", true, true},
-        std::tuple{"1001", true, false}, std::tuple{"1e4", true, false}, std::tuple{"10001", false, false}})
-    for (const bool is_exact : {false, true}) {
-      const std::string message =
-          message_of(text_with(4, std::string("spacing = ") + spacing),
-                     {is_exact ? "numerics.yield=exact" : "numerics.yield=regularised"});
-      const bool accepted = message.find("key 'resolution.spacing'") == std::string::npos;
-      EXPECT_EQ(accepted, is_exact ? exact : regularised) << message;
-    }
 }
 
 TEST(CaseErrors, AMissingFileIsNamed) {
