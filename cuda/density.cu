@@ -32,6 +32,7 @@ struct DensityAndShear {
   Box box;
   Real moved;              // [s]
   Real inverse_stiffness;  // 1/c0^2
+  Real inverse_gradient;   // of a gradient over the sum that stands for it on a lattice
   Span<Real> excess, shear_rate, contact;
 
   HOST_DEVICE void operator()(Index i) const {
@@ -65,7 +66,8 @@ struct DensityAndShear {
       const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
       const Lanes approach = dot(slip, d), share = weight * approach;
       sums.approach += share;
-      const Lanes smooth = (Real(0.5) * inverse_stiffness) * dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
+      const Lanes smooth = (Real(0.5) * inverse_stiffness * inverse_gradient) *
+                           dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
       sums.diffusion -= weight * ((other.w - centre.excess) - smooth);
       sums.shear -= own_side(i, j) * share * approach / (r2 + c.flow.softening);
     }
@@ -121,6 +123,21 @@ struct DensityAndShear {
   }
 };
 
+// Sum V |F| x^2 over a lattice: what the pair sums make of a gradient of 1.
+template <class Smoothing>
+double gradient_on_lattice(const Smoothing& smoothing, const FlowConstants& flow) {
+  const auto dx = static_cast<double>(flow.spacing), h = static_cast<double>(flow.support);
+  const int reach = static_cast<int>(h / dx), across = flow.dimensions == 3 ? reach : 0;
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -across; j <= across; ++j)
+      for (int k = -reach; k <= reach; ++k) {
+        const double r = dx * std::sqrt(static_cast<double>(i * i + j * j + k * k));
+        if (r < h) sum -= static_cast<double>(smoothing.gradient(static_cast<Real>(r))) * square(i * dx);
+      }
+  return sum * static_cast<double>(flow.wall_volume);
+}
+
 struct StateFromDensity {
   Span<const FluidConstants> fluids;
   FlowConstants flow;
@@ -145,12 +162,13 @@ struct StateFromDensity {
 void update_density(Context& context, const PairContext& c, FluidArrays& fluid, Buffer<Real>& scratch,
                     Real moved) {
   const Lucy smoothing(c.flow.support, c.flow.dimensions);
+  const auto gradient = static_cast<Real>(1 / gradient_on_lattice(smoothing, c.flow));
   scratch.resize(fluid.count);
   auto sweep = [&](auto box) {
-    launch(
-        context, "density and shear rate", fluid.count,
-        DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, moved, 1 / c.flow.sound_speed_squared,
-                                             scratch.span(), fluid.shear_rate.span(), fluid.contact.span()});
+    launch(context, "density and shear rate", fluid.count,
+           DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, moved, 1 / c.flow.sound_speed_squared,
+                                                gradient, scratch.span(), fluid.shear_rate.span(),
+                                                fluid.contact.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
   launch(context, "state", fluid.count,

@@ -24,13 +24,14 @@ struct PairContext {
 //              + 2 delta (h/2) c0 sum_j V_j (-F_ij) [(rho_j - rho0_j) - (rho_i - rho0_i) + f_ij.(x_j -
 //              x_i)/c0^2],
 // f_ij the mean force per volume of the pair by pressure in the last step, so that f/c0^2 is minus the
-// smooth gradient of the density: what diffuses is noise between neighbours, not the gradient that holds
-// gravity, viscosity, a yield stress or surface tension. Wall pairs have rho0_i (a_w - g) for f_ij: theirs is
-// the pressure that gravity continues (wall_pressure.hpp). With -rho0 g for all pairs it is the diffusion of
-// G. Fourtakas et al., Comput. Fluids 190 (2019) 346, which blows up thin fluid that viscous stress holds.
-// The sums are taken half-way along the last step, x_ij less half of what it has changed: at the end of the
-// step a rigid rotation by an angle a would seem to expand by a^2/2. Sets the pressure by the equation of
-// state
+// smooth gradient of the density (over what the sum for it makes of a gradient on a lattice, 1.006 in two
+// dimensions and 0.988 in three: fluid that a yield stress holds would else be pumped): what diffuses is
+// noise between neighbours, not the gradient that holds gravity, viscosity, a yield stress or surface
+// tension. Wall pairs have rho0_i (a_w - g) for f_ij: theirs is the pressure that gravity continues
+// (wall_pressure.hpp). With -rho0 g for all pairs it is the diffusion of G. Fourtakas et al., Comput. Fluids
+// 190 (2019) 346, which blows up thin fluid that viscous stress holds. The sums are taken half-way along the
+// last step, x_ij less half of what it has changed: at the end of the step a rigid rotation by an angle a
+// would seem to expand by a^2/2. Sets the pressure by the equation of state
 //   p = max(c0^2 (rho - rho0), -p_t)
 // and the viscosity from the shear rate
 //   gamma_i^2 = C (d+2) sum_j (eta_ij/eta_i)^2 V_j |F_ij| ((v_i - v_j).x_ij)^2 / r^2,

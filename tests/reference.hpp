@@ -138,6 +138,19 @@ inline double slope_over_distance(const World& w, double r) {
   return r > 0 ? lucy_slope(r, w.support, w.dimensions) / r : 0;
 }
 
+// Sum of -V x dW/dx over a lattice: what the pair sums make of a gradient of 1.
+inline double gradient_on_lattice(const World& w) {
+  double sum = 0;
+  const int y = w.dimensions == 3 ? 4 : 0;
+  for (int i = -4; i <= 4; ++i)
+    for (int j = -y; j <= y; ++j)
+      for (int k = -4; k <= 4; ++k) {
+        const Vec d = w.spacing * Vec{double(i), double(j), double(k)};
+        sum -= w.wall_volume() * slope_over_distance(w, length(d)) * d.x * d.x;
+      }
+  return sum;
+}
+
 // Change of the density of particle i over a step of dt that has brought all to where they are: continuity
 // and density diffusion (numerics.md, section 0), with the pairs where they were half-way. Walls take part
 // with the density that their pressure has in the fluid's equation of state. Between fluids, what diffuses is
@@ -149,19 +162,20 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
   const double density = w.density(p);
   Sum sum;
   // `moved`: what the step has added to d; `balanced`: minus the force per volume by pressure
-  auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced) {
+  auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced, double share) {
     const Vec half_way = d - 0.5 * moved;
     if (length(half_way) >= w.support) return;
     const double f = slope_over_distance(w, length(half_way));
     sum.add(density * volume * f * dot(moved, half_way), density * volume * -f * length(moved) * length(d));
-    const double smooth = dot(balanced, -1 * half_way) / c2;
+    const double smooth = dot(balanced, -1 * half_way) / c2 * share;
     sum.add(dt * strength * volume * -f * (excess - p.excess - smooth),
             dt * strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
   };
   for_fluid_pairs(
       w, i,
       [&](const Particle& j, Vec d) {
-        pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure));
+        pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure),
+             1 / gradient_on_lattice(w));
       },
       reach_before);
   for_wall_pairs(
@@ -169,7 +183,7 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
       [&](const Wall& j, Vec d) {
         const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
         pair(d, w.wall_volume(), dt * p.v - w.moved(j, dt), cut ? p.excess : j.pressure / c2,
-             cut ? Vec{} : rest * (w.gravity - j.acceleration));
+             cut ? Vec{} : rest * (w.gravity - j.acceleration), 1);
       },
       reach_before);
   return sum;
