@@ -118,7 +118,7 @@ TEST(Watch, LetsABoxWithoutGravityGoOn) {
   setup.particles.pressure.assign(setup.particles.pressure.size(), 1000);
   const std::vector<Vec3d> floor = setup.walls.position;
   for (const Vec3d& x : floor) testing_tools::add_wall(setup, {x.x, x.y, 0.06 - x.z}, {0, 0, -1}, -x.z);
-  EXPECT_EQ(end_of(setup, 400), "");
+  EXPECT_EQ(end_of(setup, 150), "");
 }
 
 TEST(Watch, LetsADropBounce) {
@@ -127,7 +127,7 @@ TEST(Watch, LetsADropBounce) {
     setup.particles = {};
     testing_tools::add_particle(setup, {0.041, 0.005, 0.02}, {0, 0, -speed}, 0);
     setup.limits.max_compression = 0.5;
-    EXPECT_EQ(end_of(setup, 200), "") << speed;
+    EXPECT_EQ(end_of(setup, 130), "") << speed;
   }
 }
 
