@@ -68,17 +68,22 @@ struct DensityAndShear {
       sums.approach += share;
       const Lanes smooth = (Real(0.5) * inverse_stiffness * inverse_gradient) *
                            dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
-      sums.diffusion -= weight * ((other.w - centre.excess) - smooth);
-      sums.shear -= own_side(i, j) * share * approach / (r2 + c.flow.softening);
+      const Lanes noise = weight * ((other.w - centre.excess) - smooth),
+                  strain = share * approach / (r2 + c.flow.softening);
+      if (c.fluids.size == 1) {
+        sums.diffusion -= noise, sums.shear -= strain;
+        continue;
+      }
+      const LaneMask alike = same(c.fluid.fluid, j, c.fluid.fluid[i]);
+      sums.diffusion -= select(alike, noise, Lanes(0));
+      sums.shear -= select(alike, Lanes(1), own_side(i, j)) * strain;
     }
   }
 
-  // Of the square of the pair's strain rate.
+  // Share of i of the square of the strain rate of a pair of two fluids.
   HOST_DEVICE Lanes own_side(Index i, const Index* j) const {
-    if (c.fluids.size == 1) return Real(1);
     const Lanes own = c.fluid.state[i].y, other = gather(c.fluid.state, j).y;
-    return select(same(c.fluid.fluid, j, c.fluid.fluid[i]), Lanes(1),
-                  square(Real(2) * other / (own + other)));
+    return square(Real(2) * other / (own + other));
   }
 
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {

@@ -29,9 +29,10 @@ struct PairContext {
 // noise between neighbours, not the gradient that holds gravity, viscosity, a yield stress or surface
 // tension. Wall pairs have rho0_i (a_w - g) for f_ij: theirs is the pressure that gravity continues
 // (wall_pressure.hpp). With -rho0 g for all pairs it is the diffusion of G. Fourtakas et al., Comput. Fluids
-// 190 (2019) 346, which blows up thin fluid that viscous stress holds. The sums are taken half-way along the
-// last step, x_ij less half of what it has changed: at the end of the step a rigid rotation by an angle a
-// would seem to expand by a^2/2. Sets the pressure by the equation of state
+// 190 (2019) 346, which blows up thin fluid that viscous stress holds. Nothing diffuses between fluids: what
+// one loses of its energy by that the other does not gain, and sound waves would grow. The sums are taken
+// half-way along the last step, x_ij less half of what it has changed: at the end of the step a rigid
+// rotation by an angle a would seem to expand by a^2/2. Sets the pressure by the equation of state
 //   p = max(c0^2 (rho - rho0), -p_t)
 // and the viscosity from the shear rate
 //   gamma_i^2 = C (d+2) sum_j (eta_ij/eta_i)^2 V_j |F_ij| ((v_i - v_j).x_ij)^2 / r^2,

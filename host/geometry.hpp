@@ -14,6 +14,10 @@
 
 namespace slagflow {
 
+// Sites on a face are decided by a nudge this way: along no plane of the lattice, so that a tilted plane
+// through sites takes all of them or none, and rounding none.
+constexpr Vec3d tie_direction{1, 0.61, 0.37};
+
 using SiteIndex = std::array<std::int64_t, 3>;
 
 // The lattice sites of the domain, and of a margin around it along axes that are not periodic. With two

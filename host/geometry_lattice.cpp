@@ -136,7 +136,7 @@ void Lattice::visit_block(const SiteIndex& first, const Distance& distance, cons
     for (s[1] = first[1]; s[1] <= last[1]; ++s[1])
       for (s[0] = first[0]; s[0] <= last[0]; ++s[0]) {
         const Vec3d p = position(s);
-        const Vec3d q = p + Vec3d{nudge, flat_ ? 0 : nudge, nudge};
+        const Vec3d q = p + nudge * Vec3d{1, flat_ ? 0 : tie_direction.y, tie_direction.z};
         if (middle < -radius || distance(q) < 0) visit(s, p);
       }
 }

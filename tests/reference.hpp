@@ -174,8 +174,9 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
   for_fluid_pairs(
       w, i,
       [&](const Particle& j, Vec d) {
-        pair(d, j.volume, dt * (p.v - j.v), j.excess, -0.5 * (p.by_pressure + j.by_pressure),
-             1 / gradient_on_lattice(w));
+        const bool alike = j.fluid == p.fluid;  // else nothing diffuses
+        pair(d, j.volume, dt * (p.v - j.v), alike ? j.excess : p.excess,
+             alike ? -0.5 * (p.by_pressure + j.by_pressure) : Vec{}, 1 / gradient_on_lattice(w));
       },
       reach_before);
   for_wall_pairs(
