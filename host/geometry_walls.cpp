@@ -81,8 +81,9 @@ std::vector<Foot> WallFaces::feet_by_depth(Vec3d p, std::size_t body) const {
   std::vector<Foot> feet;
   // A site on a face counts as inside by a nudge; rounding may put it outside, where it would be told another
   // face of the wall.
-  const bool on_face = solids_[body].distance(p) > -0.1 * tie;
-  solids_[body].feet(on_face ? p + tie * tie_direction : p, 2 * reach_, feet);
+  const bool outside = solids_[body].distance(p) > 0;
+  solids_[body].feet(outside ? p + tie * tie_direction : p, 2 * reach_, feet);
+  if (feet.empty()) solids_[body].feet(p + tie * tie_direction, 2 * reach_, feet);
   const auto steps = [&](const Foot& f) { return std::round(dot(f.point - p, f.normal) / tie); };
   std::stable_sort(feet.begin(), feet.end(), [&](const Foot& a, const Foot& b) {
     const double difference = steps(a) - steps(b);
