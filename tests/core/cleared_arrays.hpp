@@ -15,7 +15,8 @@ inline void clear(FluidArrays& f, std::size_t count) {
     field->upload(std::vector<Quad>(count));
   f.id.upload(std::vector<Index>(count));
   f.fluid.upload(std::vector<std::uint8_t>(count));
-  for (Buffer<Real>* field : {&f.packing, &f.pressure, &f.shear_rate}) field->upload(std::vector<Real>(count));
+  for (Buffer<Real>* field : {&f.packing, &f.pressure, &f.shear_rate})
+    field->upload(std::vector<Real>(count));
 }
 
 inline void clear(WallArrays& w, std::size_t count) {
