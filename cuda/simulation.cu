@@ -235,9 +235,9 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 // What the watch remembers stays as it is: a look out of turn must not change what it finds later.
 void Simulation::require_sound() {
   State& s = *state_;
-  const double lowest = s.watch.lowest_energy, most_pressure = s.watch.most_pressure_energy;
+  const double lowest = s.watch.lowest_energy, given = s.watch.given_before;
   s.look();
-  s.watch.lowest_energy = lowest, s.watch.most_pressure_energy = most_pressure;
+  s.watch.lowest_energy = lowest, s.watch.given_before = given;
 }
 
 double Simulation::time() const { return state_->time; }

@@ -15,7 +15,7 @@ struct SavedNumbers {
   double time, dt, full_dt, last_dt, displacement, taken, given, capillary_work, list_time;
   std::int64_t steps, builds;
   std::int64_t solver_steps, solver_iterations, solver_retried, yield_iterations, yield_unconverged;
-  double worst_residual, residual, velocity_error, lowest_energy, most_pressure_energy;
+  double worst_residual, residual, velocity_error, lowest_energy, given_before;
   std::int32_t max_iterations, iterations, converged, real_size;
 };
 
@@ -140,7 +140,7 @@ SavedState Simulation::save() const {
                                      s.report.residual,
                                      s.report.velocity_error,
                                      s.watch.lowest_energy,
-                                     s.watch.most_pressure_energy,
+                                     s.watch.given_before,
                                      s.solver.max_iterations,
                                      s.report.iterations,
                                      s.report.converged ? 1 : 0,
@@ -182,7 +182,7 @@ void Simulation::restore(const SavedState& saved) {
   s.solver = {v.solver_steps,     v.solver_iterations, v.max_iterations, v.worst_residual,
               v.yield_iterations, v.yield_unconverged, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
-  s.watch.lowest_energy = v.lowest_energy, s.watch.most_pressure_energy = v.most_pressure_energy;
+  s.watch.lowest_energy = v.lowest_energy, s.watch.given_before = v.given_before;
   s.last.reset();
   s.rebuild_lists_as_saved();
 }

@@ -25,8 +25,8 @@ class Watch {
   // Throws Error that names the limit, its value, the particle concerned with its state, and what to try.
   void look(const FluidArrays&, Span<const FluidConstants>, const WatchMoment&, DiagnosticScratch&);
 
-  // Lowest total energy seen so far, and the most of |p| V [J]; kept in checkpoints.
-  double lowest_energy = 1e300, most_pressure_energy = 0;
+  // Lowest total energy seen so far, and what had been given at the last look [J]; kept in checkpoints.
+  double lowest_energy = 1e300, given_before = 0;
 
  private:
   void check_energy(const Vitals&, const WatchMoment&);

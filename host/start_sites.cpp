@@ -6,7 +6,7 @@
 namespace slagflow {
 
 StartSites::StartSites(Lattice lattice, std::vector<std::uint8_t> bodies, std::vector<std::size_t> particles)
-    : lattice_(std::move(lattice)), body_(std::move(bodies)), site_(std::move(particles)) {
+    : lattice_(lattice), body_(std::move(bodies)), site_(std::move(particles)) {
   particle_.assign(lattice_.size(), none);
   for (std::size_t i = 0; i < site_.size(); ++i) particle_[site_[i]] = static_cast<std::int32_t>(i);
 }

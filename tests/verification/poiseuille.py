@@ -25,7 +25,7 @@ def runs(quick):
 
 def series(result, state):
     nu = result.fluid()["dynamic_viscosity"] / result.fluid()["density"]
-    return poiseuille(state.position[:, 2], state.time, GAP, result.case["body_force"]["acceleration"][0], nu)
+    return poiseuille(state.position[:, 2], result.velocity_time(state), GAP, result.case["body_force"]["acceleration"][0], nu)
 
 
 def rows(results):

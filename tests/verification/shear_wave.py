@@ -52,7 +52,7 @@ def viscosity(result):
 def amplitude(result):
     state = result.state()
     wave = np.sin(WAVE_NUMBER * state.position[:, 2])
-    return np.sum(state.velocity[:, 0] * wave) / np.sum(wave**2) / 1e-3, state.time
+    return np.sum(state.velocity[:, 0] * wave) / np.sum(wave**2) / 1e-3, result.velocity_time(state)
 
 
 def error_in_time(result):

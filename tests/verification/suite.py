@@ -124,6 +124,11 @@ class Result:
         return State(float(self.times[step]), fluid.positions(step), fluid.field("Velocity", step),
                      fluid.field("Pressure", step), fluid.field("Yielded", step))
 
+    def velocity_time(self, state):
+        """The time [s] that the velocities of a state belong to: half a step before the places."""
+        times, steps = self.history["time_s"], self.history["dt_s"]
+        return state.time - 0.5 * float(steps[int(np.argmin(np.abs(np.asarray(times) - state.time)))])
+
     def states(self):
         return [self.state(time) for time in self.times]
 
