@@ -119,11 +119,12 @@ void Watch::check_dissipated(const WatchMoment& now, double scale) const {
          "a smaller numerics.tolerance");
 }
 
-// Between two looks pairing and walls at rest give no more than what the arrangement of the particles holds, a
-// share of the pressure times the volume. (Moving walls give as much as they like; over a long flow what sheared
-// particles get adds up.)
+// Between two looks pairing and walls at rest give no more than what the arrangement of the particles holds,
+// a share of the pressure times the volume. (Moving walls give as much as they like; over a long flow what
+// sheared particles get adds up.)
 void Watch::check_given(const Vitals& vitals, const WatchMoment& now, double scale) {
-  const double gain = now.given - given_before;
+  // What they give back they have taken before: in all, no more.
+  const double gain = smaller(now.given - given_before, now.given);
   given_before = now.given;
   for (const WallBody& body : setup_.bodies)
     if (body.motion.moves()) return;
