@@ -97,13 +97,14 @@ struct DensityAndShear {
       const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
       LaneVec3 change = travelled, falls = hydrostatic;
       QuadLanes other = gather(c.wall.velocity, j);
-      if (!walls_move) change = change - Lanes(moved) * xyz(other);
       if (walls_move) {
         const LaneVec3 gain = xyz(gather(c.wall.acceleration, j));
         change = change - xyz(gather(c.wall.moved, j));
         falls = falls - gain;
         // The fluid still has the velocity of the last step.
         other.x -= Lanes(moved) * gain.x, other.y -= Lanes(moved) * gain.y, other.z -= Lanes(moved) * gain.z;
+      } else {
+        change = change - Lanes(moved) * xyz(other);
       }
       const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j))) - half * change;
       const Lanes r2 = dot(d, d);
