@@ -8,8 +8,8 @@
 #include <fstream>
 #include <vector>
 
-#include "host/setup_builder.hpp"
-#include "simulation.hpp"
+#include "host/geometry/setup_builder.hpp"
+#include "simulation/simulation.hpp"
 
 namespace slagflow {
 namespace {

@@ -15,7 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "host/program.hpp"
+#include "host/program/program.hpp"
 
 namespace {
 

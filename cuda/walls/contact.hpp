@@ -1,8 +1,8 @@
 // What keeps fluid out of walls whatever its density says.
 #pragma once
 
-#include "lane_math.hpp"
-#include "params.hpp"
+#include "fluid/lane_math.hpp"
+#include "fluid/params.hpp"
 
 namespace slagflow {
 

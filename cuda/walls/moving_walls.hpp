@@ -1,8 +1,8 @@
 // Places the particles of walls that move, and tells them their velocity.
 #pragma once
 
-#include "particles.hpp"
-#include "setup.hpp"
+#include "fluid/particles.hpp"
+#include "fluid/setup.hpp"
 
 namespace slagflow {
 

@@ -1,6 +1,6 @@
 #include "backend/launch.hpp"
-#include "lane_math.hpp"
-#include "smoothing/lucy.hpp"
+#include "fluid/lane_math.hpp"
+#include "fluid/smoothing/lucy.hpp"
 #include "walls/wall_pressure.hpp"
 #include "walls/wall_tension.hpp"
 

@@ -1,7 +1,7 @@
 // The pressure that a wall particle shows its neighbours.
 #pragma once
 
-#include "density.hpp"
+#include "pressure/density.hpp"
 
 namespace slagflow {
 

@@ -2,8 +2,8 @@
 // than the fluid does.
 #pragma once
 
-#include "density.hpp"
-#include "lane_math.hpp"
+#include "fluid/lane_math.hpp"
+#include "pressure/density.hpp"
 
 namespace slagflow {
 

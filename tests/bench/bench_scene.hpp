@@ -7,13 +7,13 @@
 #include <random>
 
 #include "backend/device.hpp"
-#include "constants.hpp"
-#include "density.hpp"
-#include "diagnostics.hpp"
-#include "host/setup_builder.hpp"
-#include "neighbours.hpp"
-#include "ordering.hpp"
-#include "viscous.hpp"
+#include "fluid/constants.hpp"
+#include "host/geometry/setup_builder.hpp"
+#include "neighbours/neighbours.hpp"
+#include "neighbours/ordering.hpp"
+#include "observation/diagnostics.hpp"
+#include "pressure/density.hpp"
+#include "viscosity/viscous.hpp"
 
 namespace slagflow::bench {
 

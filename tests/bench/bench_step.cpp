@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include "bench_scene.hpp"
-#include "simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace slagflow::bench {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "particles.hpp"
+#include "fluid/particles.hpp"
 
 namespace slagflow {
 

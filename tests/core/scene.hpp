@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "constants.hpp"
-#include "density.hpp"
-#include "neighbours.hpp"
-#include "ordering.hpp"
-#include "predictor.hpp"
+#include "fluid/constants.hpp"
+#include "neighbours/neighbours.hpp"
+#include "neighbours/ordering.hpp"
+#include "pressure/density.hpp"
 #include "reference.hpp"
+#include "viscosity/predictor.hpp"
 
 namespace slagflow::testing_tools {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scene.hpp"
-#include "simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace slagflow::testing_tools {
 

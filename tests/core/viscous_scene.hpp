@@ -1,10 +1,10 @@
 // The linear system of a scene, on the host.
 #pragma once
 
-#include "linear_system.hpp"
-#include "predictor.hpp"
 #include "reference_viscous.hpp"
 #include "scene.hpp"
+#include "viscosity/linear_system.hpp"
+#include "viscosity/predictor.hpp"
 
 namespace slagflow::testing_tools {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "host/setup_builder.hpp"
-#include "simulation.hpp"
+#include "host/geometry/setup_builder.hpp"
+#include "simulation/simulation.hpp"
 
 namespace slagflow {
 

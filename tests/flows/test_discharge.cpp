@@ -1,7 +1,7 @@
 // The discharge from the dam at 10/3 mm against the figures of an independent prototype of the same method:
 // regime, jet angle and the time at which 0.2 % of the fluid has passed 145 mm below the lip.
 #include "flows/flow.hpp"
-#include "host/measures.hpp"
+#include "host/measures/measures.hpp"
 
 namespace slagflow {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/simulation_setups.hpp"
-#include "simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace slagflow {
 namespace {

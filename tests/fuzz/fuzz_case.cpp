@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "backend/error.hpp"
-#include "host/case.hpp"
+#include "host/case/case.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace slagflow;

@@ -6,7 +6,7 @@
 
 #include "backend/error.hpp"
 #include "core/simulation_setups.hpp"
-#include "host/checkpoint.hpp"
+#include "host/output/checkpoint.hpp"
 #include "memory_file.hpp"
 
 namespace {

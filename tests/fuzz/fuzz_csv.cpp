@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "backend/error.hpp"
-#include "host/rheometry_data.hpp"
+#include "host/rheometry/rheometry_data.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace slagflow;

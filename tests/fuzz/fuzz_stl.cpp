@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "backend/error.hpp"
-#include "host/stl_surface.hpp"
+#include "host/geometry/stl_surface.hpp"
 #include "memory_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "host/case.hpp"
-#include "host/stl.hpp"
+#include "host/case/case.hpp"
+#include "host/geometry/stl.hpp"
 
 namespace slagflow {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/hdf5_handles.hpp"
+#include "host/output/hdf5_handles.hpp"
 #include "temp_folder.hpp"
 
 namespace slagflow::testing_tools {

@@ -1,0 +1,180 @@
+#include <charconv>
+#include <limits>
+
+#include "backend/error.hpp"
+#include "fluid/constants.hpp"
+#include "fluid/lattice_viscosity.hpp"
+#include "fluid/smoothing/lucy.hpp"
+
+namespace slagflow {
+
+namespace {
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw InputError(message);
+}
+
+// As short as it reads back to the same number.
+std::string text_of(double number) {
+  char text[40];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
+// The exact yield stress is the minimum of an energy: one of an implicit Euler step with the radial operator.
+void exact_yield_conflicts(const NumericsSetup& n, std::vector<Conflict>& found) {
+  const std::string with = " with numerics.yield = \"exact\": allowed: ";
+  if (n.theta != 1) found.push_back({"numerics.theta", "value " + text_of(n.theta) + with + "1"});
+  if (n.viscous_operator != ViscousOperator::radial)
+    found.push_back({"numerics.operator", "value \"laplacian\"" + with + "\"radial\""});
+  if (n.viscous_step != ViscousStepping::implicit_step)
+    found.push_back({"numerics.viscous_step", "value \"explicit\"" + with + "\"implicit\""});
+}
+
+// The device repeats iterations that decide by themselves whether they go on.
+void device_loop_conflicts(const NumericsSetup& n, std::vector<Conflict>& found) {
+  const auto refuse = [&](const std::string& with) {
+    found.push_back({"numerics.solver_loop", "value \"conditional\" with " + with + ": allowed: \"batch\""});
+  };
+  if (n.solver == ViscousSolver::sor) refuse("numerics.solver = \"sor\"");
+  if (n.solver == ViscousSolver::jacobi) refuse("numerics.solver = \"jacobi\"");
+  if (n.viscous_step == ViscousStepping::explicit_step) refuse("numerics.viscous_step = \"explicit\"");
+  if (n.yield == YieldModel::exact) refuse("numerics.yield = \"exact\"");
+}
+
+void validate_exact_yield(const SimulationSetup& s) {
+  const NumericsSetup& n = s.numerics;
+  require(n.yield_augmentation >= 0 && n.yield_iterations > 0,
+          "yield_augmentation: allowed: 0 or larger; yield_iterations: larger than 0");
+  for (const FluidSetup& f : s.fluids)
+    require(allows_exact_yield(f.rheology.kind), "yield \"exact\" with fluid \"" + f.name +
+                                                     "\" of rheology \"" + f.rheology.info().name +
+                                                     "\"; allowed: newtonian, bingham, "
+                                                     "herschel-bulkley, carreau-yasuda");
+}
+
+double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.dimensions); }
+
+}  // namespace
+
+bool allows_exact_yield(RheologyKind kind) {
+  return kind != RheologyKind::casson && kind != RheologyKind::biviscous;
+}
+
+std::vector<Conflict> conflicts(const NumericsSetup& n) {
+  std::vector<Conflict> found;
+  if (n.yield == YieldModel::exact) exact_yield_conflicts(n, found);
+  if (n.solver_loop == SolverLoop::conditional) device_loop_conflicts(n, found);
+  return found;
+}
+
+std::string tension_conflict(double wall_limit, const NumericsSetup& n) {
+  if (!(wall_limit > n.tension_limit)) return "";
+  return "value " + text_of(wall_limit) +
+         ": allowed: up to what the fluid bears, numerics.tension_limit = " + text_of(n.tension_limit) +
+         " [Pa]";
+}
+
+void validate(const SimulationSetup& s) {
+  require(s.spacing > 0, "spacing is " + std::to_string(s.spacing) + " m; allowed: larger than 0");
+  require(s.dimensions == 2 || s.dimensions == 3,
+          "dimensions is " + std::to_string(s.dimensions) + "; allowed: 2, 3");
+  require(s.numerics.sound_speed > 0,
+          "sound_speed is " + std::to_string(s.numerics.sound_speed) + " m/s; allowed: larger than 0");
+  require(s.numerics.theta > 0 && s.numerics.theta <= 1,
+          "theta is " + std::to_string(s.numerics.theta) + "; allowed: 0.5 to 1");
+  require(!s.fluids.empty(), "there is no fluid");
+  for (const Conflict& c : conflicts(s.numerics)) throw InputError(c.key + ": " + c.what);
+  if (s.numerics.yield == YieldModel::exact) validate_exact_yield(s);
+  for (const WallBody& body : s.bodies) {
+    const std::string conflict = tension_conflict(body.tension_limit, s.numerics);
+    require(conflict.empty(), "tension_limit of wall \"" + body.name + "\": " + conflict);
+  }
+  const auto& p = s.particles;
+  const std::size_t n = p.position.size();
+  require(n < static_cast<std::size_t>(std::numeric_limits<Index>::max()),
+          "more than 2^31 - 1 fluid particles");
+  require(p.velocity.size() == n && p.pressure.size() == n && p.fluid.size() == n,
+          "particle arrays differ in length");
+  const auto& w = s.walls;
+  require(w.position.size() < static_cast<std::size_t>(std::numeric_limits<Index>::max()),
+          "more than 2^31 - 1 wall particles");
+  require(w.normal.size() == w.position.size() && w.depth.size() == w.position.size() &&
+              w.body.size() == w.position.size() &&
+              (w.back_depth.empty() || w.back_depth.size() == w.position.size()) &&
+              w.back_normal.size() == w.back_depth.size(),
+          "wall arrays differ in length");
+  for (int k = 0; k < 3; ++k)
+    require(s.domain.upper[k] > s.domain.lower[k],
+            "the domain has no extent along axis " + std::string(1, "xyz"[k]));
+}
+
+FlowConstants flow_constants(const SimulationSetup& s) {
+  const double h = s.support_ratio * s.spacing, c0 = s.numerics.sound_speed;
+  const Lucy smoothing(h, s.dimensions);
+  FlowConstants flow;
+  flow.dimensions = s.dimensions;
+  flow.spacing = static_cast<Real>(s.spacing);
+  flow.support = static_cast<Real>(h);
+  flow.wall_volume = static_cast<Real>(particle_volume(s));
+  flow.gravity = to_real(s.gravity);
+  flow.body_acceleration = to_real(s.body_acceleration);
+  flow.sound_speed_squared = static_cast<Real>(c0 * c0);
+  flow.diffusion = static_cast<Real>(s.numerics.density_diffusion * h * c0);
+  flow.tension_limit = static_cast<Real>(s.numerics.tension_limit);
+  flow.anti_pairing = static_cast<Real>(s.numerics.anti_pairing);
+  flow.pairing_reference = 1 / smoothing.value(flow.spacing);
+  const double correction = viscosity_correction(s);
+  const bool radial = s.numerics.viscous_operator == ViscousOperator::radial;
+  flow.coupling = radial ? PairCoupling::radial : PairCoupling::isotropic;
+  flow.operator_factor = static_cast<Real>((radial ? 2 * (s.dimensions + 2) : 2) * correction);
+  flow.shear_factor = static_cast<Real>((s.dimensions + 2) * correction);
+  flow.softening = static_cast<Real>(1e-6 * h * h);
+  return flow;
+}
+
+double particle_mass(const SimulationSetup& s, std::size_t kind) {
+  // 24 bits, so that the mass of up to 2^29 particles, and the sum of what is in and what left, are exact.
+  return static_cast<float>(s.fluids[kind].rest_density * particle_volume(s));
+}
+
+std::vector<FluidConstants> fluid_constants(const SimulationSetup& s) {
+  std::vector<FluidConstants> result;
+  for (std::size_t kind = 0; kind < s.fluids.size(); ++kind)
+    result.push_back({static_cast<Real>(s.fluids[kind].rest_density),
+                      static_cast<Real>(particle_mass(s, kind)), s.fluids[kind].rheology});
+  return result;
+}
+
+PeriodicBox periodic_box(const SimulationSetup& s) {
+  PeriodicBox box;
+  for (int k = 0; k < 3; ++k)
+    if (s.domain.periodic[static_cast<std::size_t>(k)]) {
+      const double extent = s.domain.upper[k] - s.domain.lower[k];
+      box.period[k] = static_cast<Real>(extent);
+      box.inverse[k] = static_cast<Real>(1 / extent);
+    }
+  return box;
+}
+
+double viscosity_correction(const SimulationSetup& s) {
+  if (s.numerics.viscosity_correction > 0) return s.numerics.viscosity_correction;
+  return 1 / lattice_viscosity(s.numerics.viscous_operator, s.support_ratio, s.dimensions);
+}
+
+double capillary_time_step(const SimulationSetup& s) {
+  const double pi = 3.14159265358979324;
+  double dt = std::numeric_limits<double>::infinity();
+  for (const FluidSetup& f : s.fluids)
+    if (f.surface_tension > 0)
+      dt = smaller(dt, std::sqrt(f.rest_density * std::pow(s.spacing, 3) / (2 * pi * f.surface_tension)));
+  return s.numerics.courant * dt;
+}
+
+double stable_time_step(const SimulationSetup& s) {
+  const double acoustic = s.numerics.courant * 0.5 * s.support_ratio * s.spacing / s.numerics.sound_speed;
+  double dt = smaller(acoustic, capillary_time_step(s));
+  if (s.end_time > 0) dt = smaller(dt, 0.5 * s.end_time);
+  return s.numerics.max_time_step > 0 ? smaller(dt, s.numerics.max_time_step) : dt;
+}
+
+}  // namespace slagflow

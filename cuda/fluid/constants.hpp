@@ -1,0 +1,45 @@
+// From a setup to the constants that the device bodies use.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fluid/params.hpp"
+#include "fluid/setup.hpp"
+
+namespace slagflow {
+
+// Throws InputError on values that no run can have.
+void validate(const SimulationSetup&);
+
+// Keys of [numerics] that do not go together: the one at fault, and "value ... with ...: allowed: ...".
+struct Conflict {
+  std::string key, what;
+};
+std::vector<Conflict> conflicts(const NumericsSetup&);
+
+// The same of a wall's tension limit; empty: none. Where a wall holds better than the fluid itself, the fluid
+// parts beside the wall; and what such a wall pulls in has no store of energy to come from.
+std::string tension_conflict(double wall_limit, const NumericsSetup&);
+
+// Whether the stress is a yield stress plus a viscous one.
+bool allows_exact_yield(RheologyKind);
+
+FlowConstants flow_constants(const SimulationSetup&);
+std::vector<FluidConstants> fluid_constants(const SimulationSetup&);
+// Of one particle of fluid `kind` [kg].
+double particle_mass(const SimulationSetup&, std::size_t kind);
+
+PeriodicBox periodic_box(const SimulationSetup&);
+
+// C of equation (7): as given, or what takes out the bias of the operator, 1 / lattice_viscosity().
+double viscosity_correction(const SimulationSetup&);
+
+// courant sqrt(rho dx^3/(2 pi sigma)), of the shortest capillary wave [s]; infinite without surface tension.
+// J. U. Brackbill et al., J. Comput. Phys. 100 (1992) 335.
+double capillary_time_step(const SimulationSetup&);
+
+// dt <= courant (h/2)/c0, capillary_time_step(), half of end_time, and max_time_step when there is one [s].
+double stable_time_step(const SimulationSetup&);
+
+}  // namespace slagflow

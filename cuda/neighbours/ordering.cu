@@ -1,0 +1,189 @@
+#include "backend/launch.hpp"
+#include "neighbours/ordering.hpp"
+
+namespace slagflow {
+
+namespace {
+
+constexpr std::uint8_t inside = 255;
+constexpr std::uint64_t departed_key = std::uint64_t(1) << 63;  // sorts behind every cell
+
+// Sort key: cell in the upper, id in the lower 32 bits. Wraps periodic axes and finds the face through which
+// a particle left.
+struct FluidKey {
+  CellGrid grid;
+  Vec3d extent;
+  bool periodic[3];
+  Span<const Index> id;
+  Span<Vec3d> position;
+  Span<Quad> place;
+  Span<std::uint64_t> key;
+  Span<Index> order;
+  Span<std::uint8_t> exit;
+
+  HOST_DEVICE void operator()(Index i) const {
+    Vec3d x = position[i];
+    std::uint8_t face = inside;
+    for (int k = 0; k < 3; ++k) {
+      if (periodic[k])
+        x[k] -= extent[k] * std::floor(x[k] / extent[k]);
+      else if (!(x[k] >= 0 && x[k] <= extent[k]))
+        face = static_cast<std::uint8_t>(2 * k + (x[k] > extent[k] ? 1 : 0));
+    }
+    position[i] = x;
+    const Quad rounded = quad(to_real(x), place[i].w);
+    place[i] = rounded;
+    exit[i] = face;
+    order[i] = i;
+    const auto cell = static_cast<std::uint64_t>(grid.cell_of(xyz(rounded)));
+    key[i] = face == inside ? cell << 32 | static_cast<std::uint32_t>(id[i])
+                            : departed_key | static_cast<std::uint32_t>(id[i]);
+  }
+};
+
+struct PlaceKey {
+  CellGrid grid;
+  Span<const Quad> place;
+  Span<const Index> id;
+  Span<std::uint64_t> key;
+  Span<Index> order;
+  HOST_DEVICE void operator()(Index i) const {
+    order[i] = i;
+    key[i] =
+        static_cast<std::uint64_t>(grid.cell_of(xyz(place[i]))) << 32 | static_cast<std::uint32_t>(id[i]);
+  }
+};
+
+struct WallKey {
+  PlaceKey by_place;
+  Span<double> vanished;
+  HOST_DEVICE void operator()(Index i) const {
+    by_place(i);
+    vanished[i] = by_place.place[i].w > 0 ? 1 : 0;
+    if (vanished[i] > 0) by_place.key[i] = departed_key;
+  }
+};
+
+template <class T>
+struct Gather {
+  Span<const Index> order;
+  Span<const T> from;
+  Span<T> to;
+  HOST_DEVICE void operator()(Index i) const { to[i] = from[order[i]]; }
+};
+
+// 1 for particles of one fluid that left through one face (any face, any fluid: wildcard).
+struct FlagDeparted {
+  Span<const std::uint8_t> exit, fluid;
+  int face, kind;  // -1: any
+  Span<double> flag;
+  HOST_DEVICE void operator()(Index i) const {
+    const bool left = exit[i] != inside && (face < 0 || exit[i] == face) && (kind < 0 || fluid[i] == kind);
+    flag[i] = left ? 1 : 0;
+  }
+};
+
+}  // namespace
+
+Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic, const CellGrid& grid)
+    : context_(c),
+      extent_(extent),
+      grid_(grid),
+      periodic_(periodic),
+      fluid_cells_(c),
+      wall_cells_(c),
+      key_(c, "sort keys"),
+      spare_key_(c, "sort keys"),
+      order_(c, "sort order"),
+      spare_order_(c, "sort order"),
+      spare_index_(c, "sort spare"),
+      exit_(c, "exits"),
+      spare_kind_(c, "sort spare"),
+      flag_(c, "exit flags"),
+      spare_position_(c, "sort spare"),
+      spare_quad_(c, "sort spare"),
+      spare_real_(c, "sort spare") {}
+
+void Ordering::sort_keys(Index count) {
+  if (sort_needs_scratch) spare_key_.resize(count), spare_order_.resize(count);
+  sort_by_key(context_, key_.span(), order_.span(), {spare_key_.span(), spare_order_.span()}, 64);
+}
+
+template <class T>
+void Ordering::reorder(Buffer<T>& values, Buffer<T>& spare, Index count) {
+  spare.resize(values.size());
+  launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
+  values.swap(spare);
+}
+
+Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed) {
+  auto count = [&](int face, int kind) {
+    launch(context_, "exits", fluid.count,
+           FlagDeparted{exit_.span(), fluid.fluid.span(), face, kind, flag_.span()});
+    return static_cast<std::int64_t>(sum(context_, flag_.span()));
+  };
+  const std::int64_t all = count(-1, -1);
+  if (all > 0)
+    for (std::size_t kind = 0; kind < departed.size(); ++kind)
+      for (int face = 0; face < faces; ++face)
+        departed[kind][static_cast<std::size_t>(face)] += count(face, static_cast<int>(kind));
+  return fluid.count - static_cast<Index>(all);
+}
+
+void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
+  const Index n = f.count;
+  key_.resize(n), order_.resize(n), exit_.resize(n), flag_.resize(n);
+  launch(context_, "cell keys", n,
+         FluidKey{grid_,
+                  extent_,
+                  {periodic_[0], periodic_[1], periodic_[2]},
+                  f.id.span(),
+                  f.position.span(),
+                  f.place.span(),
+                  key_.span(),
+                  order_.span(),
+                  exit_.span()});
+  const Index left = drop(f, departed);
+  sort_keys(n);
+  reorder(f.position, spare_position_, n);
+  reorder(f.place, spare_quad_, n);
+  reorder(f.motion, spare_quad_, n);
+  reorder(f.increment, spare_quad_, n);
+  reorder(f.last_increment, spare_quad_, n);
+  reorder(f.by_pressure, spare_quad_, n);
+  reorder(f.state, spare_quad_, n);
+  reorder(f.id, spare_index_, n);
+  reorder(f.fluid, spare_kind_, n);
+  reorder(f.packing, spare_real_, n);
+  reorder(f.pressure, spare_real_, n);
+  reorder(f.shear_rate, spare_real_, n);
+  f.resize(left);
+  fluid_cells_.find(context_, grid_, key_.span(), left);
+}
+
+void Ordering::find_cells(const FluidArrays& f) {
+  key_.resize(f.count), order_.resize(f.count);
+  launch(context_, "cell keys", f.count,
+         PlaceKey{grid_, f.place.span(), f.id.span(), key_.span(), order_.span()});
+  fluid_cells_.find(context_, grid_, key_.span(), f.count);
+}
+
+void Ordering::sort(WallArrays& w) {
+  const Index n = w.count;
+  key_.resize(n), order_.resize(n), flag_.resize(n);
+  launch(context_, "wall cell keys", n,
+         WallKey{{grid_, w.place.span(), w.id.span(), key_.span(), order_.span()}, flag_.span()});
+  const auto left = n - static_cast<Index>(sum(context_, flag_.span()));
+  sort_keys(n);
+  reorder(w.place, spare_quad_, n);
+  reorder(w.normal, spare_quad_, n);
+  reorder(w.back, spare_quad_, n);
+  reorder(w.velocity, spare_quad_, n);
+  if (w.acceleration.size() > 0) reorder(w.acceleration, spare_quad_, n), reorder(w.moved, spare_quad_, n);
+  reorder(w.id, spare_index_, n);
+  reorder(w.pressure, spare_real_, n);
+  w.resize(left);
+  wall_cells_.find(context_, grid_, key_.span(), left);
+}
+
+}  // namespace slagflow

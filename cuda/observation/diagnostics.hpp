@@ -1,0 +1,36 @@
+// Sums over the fluid that a history line needs.
+#pragma once
+
+#include "pressure/density.hpp"
+#include "simulation/simulation.hpp"
+
+namespace slagflow {
+
+// Scratch of the sums.
+struct DiagnosticScratch {
+  static constexpr int most_terms = 4;
+  explicit DiagnosticScratch(Context& c) : result(c, "diagnostic sums", most_terms) {}
+  Buffer<double> result;
+};
+
+// Mass, energies, momenta, densities and fronts of the particles in the domain. Positions on the device are
+// relative to setup.domain.lower. Counts, the other masses and dissipation are the caller's.
+Totals measure_totals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                      DiagnosticScratch&);
+
+// What the watch looks at.
+struct Vitals {
+  double max_speed = 0;        // [m/s]
+  double max_compression = 0;  // (rho - rho0)/rho0
+  double kinetic_energy = 0;   // [J]
+  double stored_energy = 0;    // [J] potential, from the lowest point of the domain, and elastic
+  double elastic_energy = 0;   // [J]
+  double pressure_energy = 0;  // [J] sum of |p| m/rho0
+};
+Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                      DiagnosticScratch&);
+
+// Mean number of fluid and wall particles within the support radius of a fluid particle, itself not counted.
+double mean_neighbours(Context&, const PairContext&, DiagnosticScratch&);
+
+}  // namespace slagflow

@@ -1,0 +1,234 @@
+#include <limits>
+
+#include "fluid/diagnostic_sums.hpp"
+#include "fluid/smoothing/lucy.hpp"
+#include "observation/measures.hpp"
+
+namespace slagflow {
+
+namespace {
+
+constexpr double least_fill = 0.25;  // of the support around a point of a profile
+
+struct Plane {
+  int axis, sign;
+  Real place;
+  HOST_DEVICE bool beyond(Quad q) const { return sign > 0 ? xyz(q)[axis] > place : xyz(q)[axis] < place; }
+};
+
+// How often particle i has passed since `before`, against the direction counted as negative.
+struct Crossings {
+  Span<const Quad> before, now;
+  Plane plane;
+  Real period;  // 0: none
+  HOST_DEVICE double operator()(Index i) const {
+    if (period == 0) return (plane.beyond(now[i]) ? 1 : 0) - (plane.beyond(before[i]) ? 1 : 0);
+    const Real from = std::floor((xyz(before[i])[plane.axis] - plane.place) / period);
+    const Real to = std::floor((xyz(now[i])[plane.axis] - plane.place) / period);
+    return plane.sign * static_cast<double>(to - from);
+  }
+};
+
+struct Behind {
+  Span<const Quad> now;
+  Plane plane;
+  HOST_DEVICE double operator()(Index i) const { return plane.beyond(now[i]) ? 0 : 1; }
+};
+
+// Behind the plane, and about to be dropped because it has left the domain.
+struct LostBehind {
+  Span<const Vec3d> position;
+  Span<const Quad> now;
+  Plane plane;
+  Vec3d extent;
+  bool periodic[3];
+  HOST_DEVICE double operator()(Index i) const {
+    const Vec3d x = position[i];
+    for (int k = 0; k < 3; ++k)
+      if (!periodic[k] && !(x[k] >= 0 && x[k] <= extent[k])) return plane.beyond(now[i]) ? 0 : 1;
+    return 0;
+  }
+};
+
+struct InBox {
+  Span<const Vec3d> position;
+  Vec3d lower, upper;
+  HOST_DEVICE double operator()(Index i) const {
+    const Vec3d x = position[i];
+    for (int k = 0; k < 3; ++k)
+      if (!(x[k] >= lower[k] && x[k] < upper[k])) return 0;
+    return 1;
+  }
+};
+
+// Weighted sums of a quantity and of its products with the distance from the point.
+struct Moments {
+  double plain = 0;
+  Vec3d first;
+  HOST_DEVICE void add(double weight, double value, Vec3d distance) {
+    plain += weight * value;
+    first += weight * value * distance;
+  }
+};
+
+// Inverse of the weights' second moments times a vector, by Cramer's rule.
+struct SecondMoments {
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+  HOST_DEVICE void add(double w, Vec3d d) {
+    xx += w * d.x * d.x, yy += w * d.y * d.y, zz += w * d.z * d.z;
+    xy += w * d.x * d.y, xz += w * d.x * d.z, yz += w * d.y * d.z;
+  }
+  HOST_DEVICE Vec3d solve(Vec3d b) const {
+    const Vec3d r0{xx, xy, xz}, r1{xy, yy, yz}, r2{xz, yz, zz};
+    const double determinant = dot(r0, cross(r1, r2));
+    return {dot(b, cross(r1, r2)) / determinant, dot(r0, cross(b, r2)) / determinant,
+            dot(r0, cross(r1, b)) / determinant};
+  }
+};
+
+// Fields in the order of ProfilePoint: velocity, shear rate, viscosity; and the fill.
+constexpr int profile_fields = 5;
+struct Sample {
+  double field[profile_fields];
+  double fill;
+};
+
+struct InterpolateAtPoint {
+  CellGrid grid;
+  Span<const Index> cell_start;
+  Span<const Quad> place, motion, state;
+  Span<const Real> shear_rate;
+  PeriodicBox box;
+  Lucy W;
+  Real reach;  // of the support, from where the particles were sorted
+  Span<const Quad> point;
+  Span<Sample> result;
+
+  // The distance from point to particle in units of the support keeps the moments of order one.
+  template <class Visit>
+  HOST_DEVICE void for_particles(Vec3 at, Visit visit) const {
+    grid.for_cells_within(at, reach, [&](Index first, Index last) {
+      for (Index j = cell_start[first]; j < cell_start[last + 1]; ++j) {
+        const Vec3 d = box.separation(xyz(place[j]), at);
+        const Real r = norm(d);
+        if (r < W.support) visit(j, static_cast<double>(state[j].z * W.value(r)), to_double(W.inverse * d));
+      }
+    });
+  }
+
+  HOST_DEVICE void operator()(Index i) const {
+    constexpr double ridge = 1e-6;  // for the axis that has no extent in two dimensions
+    Moments weights, fields[profile_fields];
+    SecondMoments second;
+    for_particles(xyz(point[i]), [&](Index j, double w, Vec3d d) {
+      const double value[profile_fields] = {motion[j].x, motion[j].y, motion[j].z, shear_rate[j], state[j].y};
+      weights.add(w, 1, d);
+      second.add(w, d);
+      for (int k = 0; k < profile_fields; ++k) fields[k].add(w, value[k], d);
+    });
+    Sample sample;
+    sample.fill = weights.plain;
+    second.xx += ridge * weights.plain, second.yy += ridge * weights.plain,
+        second.zz += ridge * weights.plain;
+    const Vec3d lever = weights.plain > 0 ? second.solve(weights.first) : Vec3d{};
+    const double scale = weights.plain - dot(lever, weights.first);
+    for (int k = 0; k < profile_fields; ++k)
+      sample.field[k] = (fields[k].plain - dot(lever, fields[k].first)) / scale;
+    result[i] = sample;
+  }
+};
+
+ProfilePoint point_of(const Sample& sample, Vec3d position, double distance) {
+  ProfilePoint p;
+  p.distance = distance;
+  p.position = position;
+  p.fill = sample.fill;
+  const bool known = sample.fill >= least_fill;
+  const auto value = [&](int k) {
+    return known ? sample.field[k] : std::numeric_limits<double>::quiet_NaN();
+  };
+  p.velocity = {value(0), value(1), value(2)};
+  // A linear fit may undershoot what cannot be negative.
+  p.shear_rate = known ? larger(0.0, value(3)) : value(3);
+  p.viscosity = known ? larger(0.0, value(4)) : value(4);
+  return p;
+}
+
+}  // namespace
+
+PlaneCounters::PlaneCounters(const SimulationSetup& setup)
+    : records(setup.planes.size()),
+      planes_(setup.planes),
+      extent_(setup.domain.upper - setup.domain.lower),
+      periodic_(setup.domain.periodic) {
+  for (const FrontSetup& plane : planes_)
+    place_.push_back(static_cast<Real>(plane.position - setup.domain.lower[plane.axis]));
+}
+
+void PlaneCounters::begin(Context& c, const FluidArrays& f, DiagnosticScratch& scratch) {
+  for (std::size_t k = 0; k < planes_.size(); ++k)
+    records[k].start_behind =
+        count(c, scratch, f.count, Behind{f.place.span(), {planes_[k].axis, planes_[k].sign, place_[k]}});
+}
+
+void PlaneCounters::advance(Context& c, const FluidArrays& f, Span<const Quad> before,
+                            DiagnosticScratch& scratch) {
+  const std::vector<PlaneState> now = states(c, f, before, scratch);
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const Plane plane{planes_[k].axis, planes_[k].sign, place_[k]};
+    records[k].passed = now[k].passed;
+    records[k].lost_behind += count(
+        c, scratch, f.count,
+        LostBehind{
+            f.position.span(), f.place.span(), plane, extent_, {periodic_[0], periodic_[1], periodic_[2]}});
+  }
+}
+
+std::vector<PlaneState> PlaneCounters::states(Context& c, const FluidArrays& f, Span<const Quad> before,
+                                              DiagnosticScratch& scratch) const {
+  std::vector<PlaneState> result(planes_.size());
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const int axis = planes_[k].axis;
+    const Plane plane{axis, planes_[k].sign, place_[k]};
+    const bool repeats = periodic_[static_cast<std::size_t>(axis)];
+    const Real period = repeats ? static_cast<Real>(extent_[axis]) : Real(0);
+    const Record& r = records[k];
+    result[k].passed =
+        r.passed + count(c, scratch, f.count, Crossings{before, f.place.span(), plane, period});
+    result[k].behind = count(c, scratch, f.count, Behind{f.place.span(), plane});
+    result[k].lost_behind = r.lost_behind;
+    result[k].start_behind = r.start_behind;
+  }
+  return result;
+}
+
+std::int64_t count_in_box(Context& c, const FluidArrays& f, const BoxSetup& box, Vec3d origin,
+                          DiagnosticScratch& scratch) {
+  return count(c, scratch, f.count, InBox{f.position.span(), box.lower - origin, box.upper - origin});
+}
+
+std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& source, const LineSetup& line,
+                                          Vec3d origin) {
+  std::vector<Quad> points;
+  for (int k = 0; k < line.points; ++k) points.push_back(quad(to_real(line.at(k) - origin), 0));
+  Buffer<Quad> point(c, "points of a profile");
+  Buffer<Sample> result(c, "samples of a profile");
+  point.upload(points);
+  result.resize(points.size());
+  const CellGrid& grid = source.cells.grid;
+  const auto reach = static_cast<Real>(source.support + source.drift);
+  const FluidArrays& f = source.fluid;
+  launch(c, "profile", line.points,
+         InterpolateAtPoint{grid, source.cells.cell_start, f.place.span(), f.motion.span(), f.state.span(),
+                            f.shear_rate.span(), source.box, Lucy(source.support, source.dimensions), reach,
+                            point.span(), result.span()});
+  std::vector<Sample> samples;
+  result.download(samples);
+  std::vector<ProfilePoint> profile;
+  for (int k = 0; k < line.points; ++k)
+    profile.push_back(
+        point_of(samples[static_cast<std::size_t>(k)], line.at(k), norm(line.at(k) - line.start)));
+  return profile;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,63 @@
+// What is measured of the fluid during a run besides its totals: the flow through planes, the volume in
+// boxes, profiles along lines.
+#pragma once
+
+#include <vector>
+
+#include "neighbours/ordering.hpp"
+#include "observation/diagnostics.hpp"
+#include "simulation/simulation.hpp"
+
+namespace slagflow {
+
+// Counts the particles that pass planes, less those that come back. Only the net number counts, so it is
+// enough to compare the sides on which a particle stands at one rebuild of the neighbour lists and at the
+// next: a step costs nothing. On a periodic axis the plane repeats with the period. Whole numbers, so that
+// nothing is lost to rounding:
+//   passed + behind + lost_behind = start_behind
+class PlaneCounters {
+ public:
+  // What each plane has seen up to the last rebuild; kept in checkpoints.
+  struct Record {
+    std::int64_t start_behind = 0, passed = 0, lost_behind = 0;
+  };
+
+  // Positions on the device are relative to setup.domain.lower.
+  explicit PlaneCounters(const SimulationSetup&);
+
+  // Counts what stands behind each plane at the start.
+  void begin(Context&, const FluidArrays&, DiagnosticScratch&);
+  // Before particles are sorted and dropped. `before`: their places at the last rebuild.
+  void advance(Context&, const FluidArrays&, Span<const Quad> before, DiagnosticScratch&);
+  // Now, between two rebuilds.
+  std::vector<PlaneState> states(Context&, const FluidArrays&, Span<const Quad> before,
+                                 DiagnosticScratch&) const;
+
+  std::vector<Record> records;
+
+ private:
+  std::vector<FrontSetup> planes_;
+  Vec3d extent_;
+  std::array<bool, 3> periodic_;
+  std::vector<Real> place_;  // of each plane, relative to the domain
+};
+
+// Fluid particles in a box, its lower faces included.
+std::int64_t count_in_box(Context&, const FluidArrays&, const BoxSetup&, Vec3d origin, DiagnosticScratch&);
+
+// What is needed to find the particles around a point: `drift` is how far they may have moved since they were
+// sorted into the cells [m].
+struct ProfileSource {
+  const FluidArrays& fluid;
+  SourceView cells;
+  PeriodicBox box;
+  double support, drift;  // [m]
+  int dimensions;
+};
+
+// The fluid at evenly spaced points of a line, both ends included: a linear function fitted to the particles
+// within the support, weighted by V_j W, so that linear fields come out exactly, next to walls and free
+// surfaces too. Without value (not-a-number) where less than a quarter of the support is filled.
+std::vector<ProfilePoint> measure_profile(Context&, const ProfileSource&, const LineSetup&, Vec3d origin);
+
+}  // namespace slagflow

@@ -1,0 +1,151 @@
+#include "fluid/diagnostic_sums.hpp"
+#include "fluid/smoothing/lucy.hpp"
+#include "observation/wall_forces.hpp"
+#include "pressure/pair_pressure.hpp"
+#include "walls/wall_tension.hpp"
+
+namespace slagflow {
+
+namespace {
+
+using Impulse = WallForces::Impulse;
+
+template <class Smoothing, class Box>
+struct AddImpulse {
+  PairContext c;
+  ListView list;
+  Smoothing smoothing;
+  Box box;
+  Real dt, theta;
+  Span<const Quad> velocity, explicit_velocity;
+  WallYield yield;
+  CapillaryView capillary;
+  TensionWeight tension_weight;
+  Span<const Index> id;
+  Span<Impulse> impulse;
+
+  HOST_DEVICE void operator()(Index w) const {
+    const Offset first = list.row(w);
+    const Index pairs = list.length[w];
+    if (pairs == 0) return;
+    Impulse sum = impulse[id[w]];
+    for (Index k = 0; k < pairs; ++k) add_pair(w, list.entry[first + k * ListView::stride()], sum);
+    impulse[id[w]] = sum;
+  }
+
+  // As in the predictor: the impulse on the fluid particle; the wall feels its reverse.
+  HOST_DEVICE void add_pair(Index w, Index i, Impulse& sum) const {
+    const Vec3 d = box.separation(xyz(c.fluid.place[i]), xyz(c.wall.place[w]));
+    const Real r2 = dot(d, d);
+    if (r2 >= square(c.flow.support)) return;
+    const Quad own = c.fluid.state[i], wall = c.wall.velocity[w];
+    const Real r = std::sqrt(r2), f = smoothing.gradient(r);
+    const WallPressures<Real> p = towards_walls(c, i, own.x, wall_tension_limit(c, w));
+    const Real volumes = -dt * own.z * c.flow.wall_volume * f;
+    Vec3d pressure =
+        to_double((volumes * pair_pressure(c.flow, smoothing, p.fluid, c.wall.pressure[w], r)) * d);
+    if (capillary.any())
+      pressure += to_double(dt * capillary_pull(capillary, tension_weight, i, d, r, c.flow.wall_volume));
+    Vec3d viscous;
+    if (wall.w >= 0) {
+      const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
+      const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
+      const Real factor = dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+      const Real weight = -factor * stick * f / (r2 + c.flow.softening);
+      const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
+      viscous = to_double(couple(c.flow.coupling, weight, d, xyz(wall) - mean));
+      if (yield.stress.data) {
+        const Real stress = (2 * yield.held[i] - 1) * yield_stress_of(w, i);
+        viscous -= to_double(dt * own.z * stress * wall_strain_factor(c.flow, stick, f, r2) * d);
+      }
+    }
+    const Vec3d at = to_double(xyz(c.wall.place[w]) + d);
+    sum.pressure -= pressure, sum.viscous -= viscous;
+    sum.pressure_torque -= cross(at, pressure), sum.viscous_torque -= cross(at, viscous);
+    sum.work += dot(pressure + viscous, to_double(xyz(wall)));
+    sum.viscous_work += dot(viscous, to_double(xyz(wall)));
+    sum.elastic_work += dot(to_double((volumes * p.elastic) * d), to_double(xyz(wall)));
+  }
+
+  // It is stored with the pairs of the fluid particle.
+  HOST_DEVICE Real yield_stress_of(Index w, Index i) const {
+    const Offset first = c.wall_list.row(i);
+    for (Index k = 0; k < c.wall_list.length[i]; ++k) {
+      const Offset at = first + k * ListView::stride();
+      if (c.wall_list.entry[at] == w) return yield.stress[at];
+    }
+    return 0;
+  }
+};
+
+// One of the fifteen numbers of an impulse, of one body or (-1) of all.
+struct ImpulseTerm {
+  Span<const Impulse> impulse;
+  Span<const std::uint8_t> body;
+  int wanted, term;
+
+  HOST_DEVICE double operator()(Index i) const {
+    const Impulse& p = impulse[i];
+    const Vec3d vectors[4] = {p.pressure, p.viscous, p.pressure_torque, p.viscous_torque};
+    const bool counts = wanted < 0 || body[i] == wanted;
+    const double works[3] = {p.work, p.viscous_work, p.elastic_work};
+    return counts ? (term < work_term ? vectors[term / 3][term % 3] : works[term - work_term]) : 0;
+  }
+  static constexpr int work_term = 12, viscous_work_term = 13, elastic_work_term = 14;
+};
+
+}  // namespace
+
+WallForces::WallForces(Context& c)
+    : context_(c), impulse_(c, "wall impulses"), body_(c, "walls of wall impulses"), scratch_(c) {}
+
+void WallForces::start(const std::vector<std::uint8_t>& body) {
+  impulse_.upload(std::vector<Impulse>(body.size()));
+  body_.upload(body);
+}
+
+void WallForces::add(const PairContext& c, const ListView& list, const WallArrays& wall,
+                     const WallForceStep& step) {
+  const Lucy smoothing(static_cast<double>(c.flow.support), c.flow.dimensions);
+  const TensionWeight tension_weight(static_cast<double>(c.flow.support), c.flow.dimensions);
+  auto sweep = [&](auto box) {
+    const AddImpulse<Lucy, decltype(box)> body{c,
+                                               list,
+                                               smoothing,
+                                               box,
+                                               static_cast<Real>(step.dt),
+                                               static_cast<Real>(step.theta),
+                                               step.velocity,
+                                               step.explicit_velocity,
+                                               step.yield,
+                                               step.capillary,
+                                               tension_weight,
+                                               wall.id.span(),
+                                               impulse_.span()};
+    launch(context_, "wall forces", wall.count, if_converged(step.solve, body));
+  };
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+}
+
+WallLoad WallForces::load(std::size_t body) {
+  const auto n = static_cast<Index>(impulse_.size());
+  const auto total = [&](int term) {
+    return slagflow::total(context_, scratch_, n,
+                           ImpulseTerm{impulse_.span(), body_.span(), static_cast<int>(body), term});
+  };
+  WallLoad load;
+  Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque, &load.viscous_torque};
+  for (int term = 0; term < ImpulseTerm::work_term; ++term) (*vectors[term / 3])[term % 3] = total(term);
+  load.work = total(ImpulseTerm::work_term);
+  return load;
+}
+
+WallWork WallForces::work() {
+  const auto total = [&](int term) {
+    return slagflow::total(context_, scratch_, static_cast<Index>(impulse_.size()),
+                           ImpulseTerm{impulse_.span(), body_.span(), -1, term});
+  };
+  return {total(ImpulseTerm::viscous_work_term), total(ImpulseTerm::elastic_work_term)};
+}
+
+}  // namespace slagflow

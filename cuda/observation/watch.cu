@@ -1,0 +1,168 @@
+#include <cmath>
+#include <sstream>
+
+#include "backend/error.hpp"
+#include "fluid/constants.hpp"
+#include "observation/watch.hpp"
+
+namespace slagflow {
+
+namespace {
+
+std::string number(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+double speed_squared(Quad motion) { return static_cast<double>(dot(xyz(motion), xyz(motion))); }
+double density_excess(Quad motion) { return static_cast<double>(motion.w); }
+
+}  // namespace
+
+Watch::Watch(Context& context, const SimulationSetup& setup)
+    : context_(context),
+      setup_(setup),
+      particles_(static_cast<double>(setup.particles.fluid.size())),
+      mass_(0),
+      max_speed_(setup.limits.max_speed > 0 ? setup.limits.max_speed
+                                            : runaway_mach * setup.numerics.sound_speed) {
+  std::vector<std::int64_t> count(setup.fluids.size());
+  for (const std::uint8_t kind : setup.particles.fluid) ++count[kind];
+  for (std::size_t kind = 0; kind < count.size(); ++kind)
+    mass_ += static_cast<double>(count[kind]) * particle_mass(setup, kind);
+}
+
+void Watch::begin(const FluidArrays& fluid, Span<const FluidConstants> fluids, DiagnosticScratch& scratch) {
+  if (fluid.count == 0) return;
+  const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
+  lowest_energy = vitals.kinetic_energy + vitals.stored_energy;
+}
+
+void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, const WatchMoment& now,
+                 DiagnosticScratch& scratch) {
+  const LimitSetup& limits = setup_.limits;
+  const double lost = static_cast<double>(now.departed) / larger(1.0, particles_);
+  if (lost > limits.max_lost_fraction)
+    fail(now,
+         "a fraction " + number(lost) +
+             " of the particles has left the domain; limits.max_lost_fraction is " +
+             number(limits.max_lost_fraction),
+         "a larger domain, or close its walls");
+  const double least_step = limits.min_time_step_ratio * stable_time_step(setup_);
+  if (now.time_step < least_step)
+    fail(now,
+         "the time step fell to " + number(now.time_step) + " s; limits.min_time_step_ratio allows " +
+             number(least_step) + " s",
+         "a larger sound_speed or a smaller spacing");
+  if (fluid.count == 0) return;
+  const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
+  if (!(vitals.max_speed <= max_speed_))
+    fail_at_worst(
+        fluid, now,
+        "a speed of " + number(vitals.max_speed) + " m/s; limits.max_speed is " + number(max_speed_) + " m/s",
+        speed_squared, "a smaller courant, a larger sound_speed, or thicker walls");
+  if (!(vitals.max_compression <= limits.max_compression))
+    fail_at_worst(fluid, now,
+                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
+                      "; limits.max_compression is " + number(limits.max_compression),
+                  density_excess,
+                  "numerics.sound_speed = " + number(stiff_enough(vitals.max_compression)) + " (it is " +
+                      number(setup_.numerics.sound_speed) + " m/s) or a smaller courant");
+  check_energy(vitals, now);
+}
+
+// [m/s] The compression by an impact falls as one over the sound speed, that by weight or speed faster. In
+// two digits, with a tenth to spare.
+double Watch::stiff_enough(double compression) const {
+  const double wanted = 1.1 * setup_.numerics.sound_speed * compression / setup_.limits.max_compression;
+  const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+  return std::ceil(wanted / digit) * digit;
+}
+
+// Kinetic, stored and dissipated energy, less the work of moving walls and what pairing and walls gave, can
+// only fall; potential energy counts from the lowest point of the domain, so that a particle that leaves
+// takes energy with it and never adds any. The measure of what is a growth: kinetic and dissipated energy
+// themselves, lifting all fluid by one spacing, and a thousandth of the elastic energy for rounding. On a
+// periodic axis along the force the potential has no single value.
+void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
+  const Vec3d force = setup_.gravity + setup_.body_acceleration;
+  for (int k = 0; k < 3; ++k)
+    if (setup_.domain.periodic[static_cast<std::size_t>(k)] && force[k] != 0) return;
+  const double energy = vitals.kinetic_energy + vitals.stored_energy + now.dissipated - now.work - now.given;
+  // Places and velocities are half a step apart, so that a particle which bounces may be off by what it
+  // exchanges in a step.
+  const double unsure = std::fabs(now.just_given), sure_energy = energy - unsure;
+  lowest_energy = smaller(lowest_energy, energy + unsure);
+  // The work of walls is known to some ten per cent only: their pressure is too low next to the free surface.
+  constexpr double work_weight = 3;
+  const double scale = vitals.kinetic_energy + larger(now.dissipated, 0.0) +
+                       work_weight * std::fabs(now.work) + mass_ * norm(force) * setup_.spacing +
+                       1e-3 * vitals.elastic_energy;
+  const double growth = (sure_energy - lowest_energy) / scale;
+  if (growth > setup_.limits.max_energy_growth)
+    fail(now,
+         "the energy grew by " + number(sure_energy - lowest_energy) + " J without a source, a share of " +
+             number(growth) + "; limits.max_energy_growth is " + number(setup_.limits.max_energy_growth),
+         "a smaller courant");
+  check_dissipated(now, scale);
+  check_given(vitals, now, scale);
+}
+
+// Viscosity takes energy, whatever walls do.
+void Watch::check_dissipated(const WatchMoment& now, double scale) const {
+  const double most = setup_.limits.max_energy_growth * (scale + std::fabs(now.dissipated));
+  if (-now.dissipated > most)
+    fail(now,
+         "viscosity gave the fluid " + number(-now.dissipated) + " J; limits.max_energy_growth = " +
+             number(setup_.limits.max_energy_growth) + " allows " + number(most) + " J",
+         "a smaller numerics.tolerance");
+}
+
+// Between two looks pairing and walls at rest give no more than what the arrangement of the particles holds,
+// a share of the pressure times the volume. (Moving walls give as much as they like; over a long flow what
+// sheared particles get adds up.)
+void Watch::check_given(const Vitals& vitals, const WatchMoment& now, double scale) {
+  // What they give back they have taken before: in all, no more.
+  const double gain = smaller(now.given - given_before, now.given);
+  given_before = now.given;
+  for (const WallBody& body : setup_.bodies)
+    if (body.motion.moves()) return;
+  constexpr double arrangement = 0.05;
+  const double most = setup_.limits.max_energy_growth * scale + arrangement * vitals.pressure_energy;
+  if (gain > most)
+    fail(now,
+         "the pressure of walls and between close particles gave " + number(gain) + " J in " +
+             std::to_string(setup_.limits.interval) +
+             " steps, more than they can have; limits.max_energy_growth = " +
+             number(setup_.limits.max_energy_growth) + " allows " + number(most) + " J",
+         "a smaller courant");
+}
+
+void Watch::fail(const WatchMoment& now, const std::string& what, const std::string& advice) const {
+  throw Error("stopped in step " + std::to_string(now.step) + " at " + number(now.time) + " s: " + what +
+              "; try " + advice);
+}
+
+void Watch::fail_at_worst(const FluidArrays& fluid, const WatchMoment& now, const std::string& what,
+                          double (*badness)(Quad motion), const std::string& advice) const {
+  std::vector<Vec3d> position;
+  std::vector<Quad> motion;
+  std::vector<Index> id;
+  fluid.position.download(position), fluid.motion.download(motion), fluid.id.download(id);
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    const double b = badness(motion[i]);
+    if (!std::isfinite(b) || b > badness(motion[worst])) worst = i;
+    if (!std::isfinite(b)) break;
+  }
+  const Vec3d x = position[worst] + setup_.domain.lower;
+  const Quad m = motion[worst];
+  std::ostringstream where;
+  where << what << "; particle " << id[worst] << " at (" << x.x << ", " << x.y << ", " << x.z
+        << ") m, velocity (" << m.x << ", " << m.y << ", " << m.z << ") m/s, density excess " << m.w
+        << " kg/m^3";
+  fail(now, where.str(), advice);
+}
+
+}  // namespace slagflow

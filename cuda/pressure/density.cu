@@ -1,0 +1,186 @@
+#include "backend/launch.hpp"
+#include "fluid/lane_math.hpp"
+#include "fluid/smoothing/lucy.hpp"
+#include "pressure/density.hpp"
+#include "walls/contact.hpp"
+#include "walls/wall_tension.hpp"
+
+namespace slagflow {
+
+namespace {
+
+struct PairSums {
+  Lanes approach = 0;  // of the fluid, relative change of the density [1/s]
+  Lanes squeeze = 0;   // by the walls, relative change in the last step
+  Lanes diffusion = 0, shear = 0;
+  Lanes distance = Real(1e30);  // from the nearest wall [m]
+};
+
+// Particle i as its pairs see it.
+struct Centre {
+  Vec3 place, velocity;
+  Real excess;  // density - rest density
+  Real rest_density;
+  Vec3 by_pressure;  // force per volume
+};
+
+// Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
+template <class Smoothing, class Box>
+struct DensityAndShear {
+  PairContext c;
+  Smoothing smoothing;
+  Box box;
+  Real moved;              // [s]
+  Real inverse_stiffness;  // 1/c0^2
+  Real inverse_gradient;   // of a gradient over the sum that stands for it on a lattice
+  Span<Real> excess, shear_rate, contact;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Quad motion = c.fluid.motion[i];
+    const FluidConstants& kind = c.fluids[c.fluid.fluid[i]];
+    const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w, kind.rest_density,
+                        xyz(c.fluid.by_pressure[i])};
+    PairSums sums;
+    add_fluid(i, centre, sums);
+    add_walls(i, centre, sums);
+    const Real denser = moved * total(sums.approach) + total(sums.squeeze);
+    excess[i] =
+        motion.w + (kind.rest_density + motion.w) * denser + moved * c.flow.diffusion * total(sums.diffusion);
+    shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
+    contact[i] = contact_pressure(c.flow, kind.rest_density, least(sums.distance));
+  }
+
+  HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
+    const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
+                   f = in_lanes(centre.by_pressure);
+    const Lanes half = Real(0.5) * moved;
+    const Offset first = c.fluid_list.row(i);
+    const Index pairs = c.fluid_list.length[i];
+    for (Index k = 0; k < pairs; k += lane_count) {
+      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const QuadLanes there = gather(c.fluid.place, j), other = gather(c.fluid.motion, j);
+      const LaneVec3 slip = v - xyz(other), d = box.separation(x, xyz(there)) - half * slip;
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
+      if (!bits(near)) continue;
+      const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
+      const Lanes approach = dot(slip, d), share = weight * approach;
+      sums.approach += share;
+      const Lanes smooth = (Real(0.5) * inverse_stiffness * inverse_gradient) *
+                           dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
+      const Lanes noise = weight * ((other.w - centre.excess) - smooth),
+                  strain = share * approach / (r2 + c.flow.softening);
+      if (c.fluids.size == 1) {
+        sums.diffusion -= noise, sums.shear -= strain;
+        continue;
+      }
+      const LaneMask alike = same(c.fluid.fluid, j, c.fluid.fluid[i]);
+      sums.diffusion -= select(alike, noise, Lanes(0));
+      sums.shear -= select(alike, Lanes(1), own_side(i, j)) * strain;
+    }
+  }
+
+  // Share of i of the square of the strain rate of a pair of two fluids.
+  HOST_DEVICE Lanes own_side(Index i, const Index* j) const {
+    const Lanes own = c.fluid.state[i].y, other = gather(c.fluid.state, j).y;
+    return square(Real(2) * other / (own + other));
+  }
+
+  HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
+    const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
+                   travelled = in_lanes(moved * centre.velocity), hydrostatic = in_lanes(c.flow.gravity);
+    const Lanes half = Real(0.5), slope = centre.rest_density * inverse_stiffness;
+    const bool walls_move = c.wall.moved.size > 0;
+    const Offset first = c.wall_list.row(i);
+    const Index pairs = c.wall_list.length[i];
+    for (Index k = 0; k < pairs; k += lane_count) {
+      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      LaneVec3 change = travelled, falls = hydrostatic;
+      QuadLanes other = gather(c.wall.velocity, j);
+      if (walls_move) {
+        const LaneVec3 gain = xyz(gather(c.wall.acceleration, j));
+        change = change - xyz(gather(c.wall.moved, j));
+        falls = falls - gain;
+        // The fluid still has the velocity of the last step.
+        other.x -= Lanes(moved) * gain.x, other.y -= Lanes(moved) * gain.y, other.z -= Lanes(moved) * gain.z;
+      } else {
+        change = change - Lanes(moved) * xyz(other);
+      }
+      const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j))) - half * change;
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
+      if (!bits(near)) continue;
+      const Lanes weight = select(near, c.flow.wall_volume * smoothing.gradient(root(r2)), Lanes(0));
+      sums.squeeze += weight * dot(change, d);
+      // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
+      const Lanes pressure = gather(c.wall.pressure, j);
+      const Lanes difference = pressure * inverse_stiffness - centre.excess + slope * dot(falls, d);
+      sums.diffusion -= select(pressure > -wall_tension_limits(c, j), weight * difference, Lanes(0));
+      const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
+      const WallPairGeometry<Lanes, QuadLanes> now{d + half * change, pair.normal, pair.back};
+      sums.distance =
+          smaller(sums.distance, select(near, distance_before(now, c.flow.spacing), sums.distance));
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
+      // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
+      const Lanes dissipated =
+          Real(2) * stick * weight * square(dot(v - xyz(other), d)) / (r2 + c.flow.softening);
+      sums.shear -= select(other.w < Lanes(0), Lanes(0), dissipated);
+    }
+  }
+};
+
+// Sum V |F| x^2 over a lattice: what the pair sums make of a gradient of 1.
+template <class Smoothing>
+double gradient_on_lattice(const Smoothing& smoothing, const FlowConstants& flow) {
+  const auto dx = static_cast<double>(flow.spacing), h = static_cast<double>(flow.support);
+  const int reach = static_cast<int>(h / dx), across = flow.dimensions == 3 ? reach : 0;
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -across; j <= across; ++j)
+      for (int k = -reach; k <= reach; ++k) {
+        const double r = dx * std::sqrt(static_cast<double>(i * i + j * j + k * k));
+        if (r < h) sum -= static_cast<double>(smoothing.gradient(static_cast<Real>(r))) * square(i * dx);
+      }
+  return sum * static_cast<double>(flow.wall_volume);
+}
+
+struct StateFromDensity {
+  Span<const FluidConstants> fluids;
+  FlowConstants flow;
+  Span<const std::uint8_t> fluid;
+  Span<const Real> excess, shear_rate, packing;
+  Span<Quad> place, motion, state;
+  Span<Real> pressure;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const FluidConstants& f = fluids[fluid[i]];
+    const Real p = larger(flow.sound_speed_squared * excess[i], -flow.tension_limit);
+    const Real volume = f.volume(excess[i], packing[i]);
+    motion[i].w = excess[i];
+    place[i].w = volume;
+    pressure[i] = p;
+    state[i] = {p, viscosity(f.rheology, shear_rate[i]), volume, f.mass};
+  }
+};
+
+}  // namespace
+
+void update_density(Context& context, const PairContext& c, FluidArrays& fluid, Buffer<Real>& scratch,
+                    Real moved) {
+  const Lucy smoothing(c.flow.support, c.flow.dimensions);
+  const auto gradient = static_cast<Real>(1 / gradient_on_lattice(smoothing, c.flow));
+  scratch.resize(fluid.count);
+  auto sweep = [&](auto box) {
+    launch(context, "density and shear rate", fluid.count,
+           DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, moved, 1 / c.flow.sound_speed_squared,
+                                                gradient, scratch.span(), fluid.shear_rate.span(),
+                                                fluid.contact.span()});
+  };
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+  launch(context, "state", fluid.count,
+         StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
+                          fluid.packing.span(), fluid.place.span(), fluid.motion.span(), fluid.state.span(),
+                          fluid.pressure.span()});
+}
+
+}  // namespace slagflow

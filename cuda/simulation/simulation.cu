@@ -1,0 +1,254 @@
+#include <sstream>
+
+#include "backend/error.hpp"
+#include "simulation/advance.hpp"
+#include "simulation/simulation_state.hpp"
+#include "walls/wall_pressure.hpp"
+
+namespace slagflow {
+
+namespace {
+
+Vec3d extent(const SimulationSetup& s) { return s.domain.upper - s.domain.lower; }
+
+ListReach list_reach(const SimulationSetup& s) {
+  const double h = s.support_ratio * s.spacing;
+  // Fluid slides along walls faster than along itself; wall rows are short, so a thicker skin costs little.
+  constexpr double wall_skins = 2.5;
+  const double skin = s.numerics.skin * h;
+  return {h, skin, wall_skins * skin, h + skin};
+}
+
+CellGrid cover_domain(const SimulationSetup& s) {
+  // A shorter period would let a pair meet twice, through two images.
+  const double least = 2 * (list_reach(s).support + list_reach(s).wall_skin);
+  for (int k = 0; k < 3; ++k)
+    if (s.domain.periodic[static_cast<std::size_t>(k)] && extent(s)[k] < least)
+      throw InputError("domain: the extent along periodic axis " + std::string(1, "xyz"[k]) + " is " +
+                       std::to_string(extent(s)[k]) + " m; allowed: at least " + std::to_string(least) +
+                       " m, twice the reach of the neighbour list");
+  return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
+}
+
+}  // namespace
+
+Simulation::State::State(const SimulationSetup& s)
+    : setup((validate(s), s)),
+      flow(flow_constants(s)),
+      box(periodic_box(s)),
+      reach(list_reach(s)),
+      fluids(context, "fluid constants"),
+      fluid(context),
+      wall(context),
+      walls(context),
+      ordering(context, extent(s), s.domain.periodic, cover_domain(s)),
+      fluid_list(context, "fluid neighbours"),
+      wall_list(context, "wall neighbours"),
+      wall_to_fluid(context, "fluid neighbours of walls"),
+      list_age(context),
+      wall_forces(context),
+      surface_tension(context, setup),
+      list_places(context, "places of the list"),
+      wall_list_places(context, "wall places of the list"),
+      scratch(context, "scratch"),
+      viscous(context, s.numerics),
+      diagnostics(context),
+      watch(context, setup),
+      planes(s),
+      below_faces(context),
+      step_graph(context, "steps"),
+      yielded(context, "yielded"),
+      side_stream(context) {
+  if (setup.time_parts) step_graph.launch_singly();
+  departed.resize(s.fluids.size());
+  dt = full_dt = stable_time_step(setup);
+  upload_fluid();
+  upload_walls();
+  planes.begin(context, fluid, diagnostics);
+  list_places.copy_from(fluid.place);
+  rebuild();
+  extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
+  update_density(context, pairs(), fluid, scratch, 0);  // viscosity and shear rate of the start
+  watch.begin(fluid, fluids.span(), diagnostics);
+}
+
+void Simulation::State::upload_fluid() {
+  const auto& p = setup.particles;
+  const std::size_t n = p.position.size();
+  const auto constants = fluid_constants(setup);
+  const double c2 = setup.numerics.sound_speed * setup.numerics.sound_speed;
+  std::vector<Vec3d> position(n);
+  std::vector<Quad> place(n), motion(n), by_pressure(n), state(n);
+  std::vector<Index> id(n);
+  std::vector<Real> packing(n);
+  std::vector<std::int64_t> count(setup.fluids.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& f = constants[p.fluid[i]];
+    const auto excess = static_cast<Real>(p.pressure[i] / c2);
+    position[i] = p.position[i] - setup.domain.lower;
+    packing[i] = 1 + excess / f.rest_density;
+    place[i] = quad(to_real(position[i]), f.volume(excess, packing[i]));
+    by_pressure[i] = quad(-f.rest_density * to_real(setup.gravity), 0);
+    state[i] = {static_cast<Real>(p.pressure[i]), viscosity(f.rheology, 0), place[i].w, f.mass};
+    motion[i] = quad(to_real(p.velocity[i]), excess);
+    id[i] = static_cast<Index>(i);
+    ++count[p.fluid[i]];
+  }
+  for (std::size_t kind = 0; kind < count.size(); ++kind)
+    start_mass += static_cast<double>(count[kind]) * particle_mass(setup, kind);
+  start_count = static_cast<Index>(n);
+  fluids.upload(constants);
+  fluid.resize(static_cast<Index>(n));
+  fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
+      fluid.packing.upload(packing), fluid.id.upload(id);
+  fluid.fluid.upload(p.fluid);
+  fluid.increment.upload(std::vector<Quad>(n)), fluid.last_increment.upload(std::vector<Quad>(n));
+  fluid.by_pressure.upload(by_pressure);
+  fluid.state.upload(state);
+  fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
+  fluid.shear_rate.upload(std::vector<Real>(n));
+  setup.particles = {};  // from here on the device has them
+}
+
+void Simulation::State::upload_walls() {
+  walls.upload(setup, wall);
+  walls.place({time, dt, 0}, wall);
+  if (knows_wall_forces()) wall_forces.start(setup.walls.body);
+  setup.walls.normal = setup.walls.back_normal = {};
+  setup.walls.depth = setup.walls.back_depth = {};
+  ordering.sort(wall);
+}
+
+void Simulation::State::rebuild() {
+  Section timer(context, "neighbours");
+  planes.advance(context, fluid, list_places.span(), diagnostics);
+  ordering.sort(fluid, departed);
+  check_departure();
+  if (walls.any()) ordering.sort(wall);
+  build_lists();
+  if (exact_yield()) viscous.exact_yield().follow({fluid_list, wall_list, fluid.id, wall.id}, start_count);
+  list_places.copy_from(fluid.place);
+  if (walls.any()) wall_list_places.copy_from(wall.place);
+  list_time = time;
+  displacement = 0;
+  last.reset();
+  ++builds;
+}
+
+void Simulation::State::build_lists() {
+  ++arrangement;
+  const auto fluid_reach = static_cast<Real>(reach.support + reach.fluid_skin);
+  const auto wall_reach = static_cast<Real>(reach.support + reach.wall_skin);
+  const auto sources = ordering.fluid_sources(fluid);
+  fluid_list.build(sources, fluid.place.span(), box, fluid_reach, NeighbourList::Pairs::self);
+  wall_list.build(ordering.wall_sources(wall), fluid.place.span(), box, wall_reach,
+                  NeighbourList::Pairs::other);
+  wall_to_fluid.build(sources, wall.place.span(), box, wall_reach, NeighbourList::Pairs::other);
+}
+
+// The walls as they were when the lists were built, in the same order.
+void Simulation::State::restore_walls() {
+  if (!walls.any()) return;
+  walls.place({list_time, dt, 0}, wall);
+  ordering.sort(wall);
+  wall_list_places.copy_from(wall.place);
+}
+
+// The lists as they were: from the places at which they were built, in the order that the particles still
+// have.
+void Simulation::State::rebuild_lists_as_saved() {
+  fluid.place.swap(list_places);
+  ordering.find_cells(fluid);
+  build_lists();
+  fluid.place.swap(list_places);
+  if (exact_yield()) viscous.exact_yield().remember({fluid_list, wall_list, fluid.id, wall.id}, start_count);
+}
+
+void Simulation::State::check_departure() const {
+  if (setup.domain.departure != Departure::stop) return;
+  for (const auto& by_face : departed)
+    for (int face = 0; face < faces; ++face)
+      if (by_face[static_cast<std::size_t>(face)] > 0)
+        throw Error("a particle left the domain through face " + std::string(face % 2 ? "+" : "-") +
+                    "xyz"[face / 2] + " at " + std::to_string(time) + " s, and domain.departure is \"stop\"");
+}
+
+bool Simulation::State::lists_hold() {
+  Section timer(context, "list age");
+  if (walls.vanishes(list_time, time)) return false;
+  if (last && !walls.any()) return ListAge::lists_hold(*last, reach);
+  return list_age.lists_hold(
+      {ordering.fluid_sources(fluid), list_places.span(), displacement},
+      {ordering.wall_sources(wall), wall_list_places.span(), walls.largest_displacement(list_time, time)},
+      reach);
+}
+
+PairContext Simulation::State::pairs() const {
+  PairContext c{fluid_list.view(), wall_list.view(), view(fluid), view(wall), fluids.span(), flow, box};
+  c.capillary = surface_tension.acceleration();
+  return c;
+}
+
+WallWork Simulation::State::wall_work() { return knows_wall_forces() ? wall_forces.work() : WallWork{}; }
+
+void Simulation::State::look() {
+  Section timer(context, "watch");
+  std::int64_t left = 0;
+  for (const auto& by_face : departed)
+    for (const std::int64_t count : by_face) left += count;
+  const WallWork work = wall_work();
+  watch.look(fluid, fluids.span(),
+             {time, dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
+              last ? last->given : 0, steps, left},
+             diagnostics);
+}
+
+// Names the first particle that is not a number: by its motion, or else by its density, which follows within
+// a step.
+void Simulation::State::check_finite() {
+  std::vector<Vec3d> position;
+  std::vector<Quad> motion;
+  std::vector<Index> id;
+  fluid.position.download(position), fluid.motion.download(motion), fluid.id.download(id);
+  std::ostringstream message;
+  message << "not a number in step " << steps + 1 << " at " << time << " s: ";
+  for (const bool motion_only : {true, false})
+    for (std::size_t i = 0; i < id.size(); ++i) {
+      const Quad m = motion[i];
+      const Vec3d x = position[i] + setup.domain.lower;
+      if (std::isfinite(m.x + m.y + m.z) && std::isfinite(x.x + x.y + x.z) &&
+          (motion_only || std::isfinite(m.w)))
+        continue;
+      message << "particle " << id[i] << " at (" << x.x << ", " << x.y << ", " << x.z << ") m, velocity ("
+              << m.x << ", " << m.y << ", " << m.z << ") m/s, density excess " << m.w
+              << " kg/m^3; try a smaller courant or a larger sound_speed";
+      throw Error(message.str());
+    }
+  message << "in the viscous solve; try a smaller courant";
+  throw Error(message.str());
+}
+
+Simulation::Simulation(const SimulationSetup& setup) : state_(std::make_unique<State>(setup)) {}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+// What the watch remembers stays as it is: a look out of turn must not change what it finds later.
+void Simulation::require_sound() {
+  State& s = *state_;
+  const double lowest = s.watch.lowest_energy, given = s.watch.given_before;
+  s.look();
+  s.watch.lowest_energy = lowest, s.watch.given_before = given;
+}
+
+double Simulation::time() const { return state_->time; }
+double Simulation::time_step() const { return state_->dt; }
+double Simulation::velocity_time_step() const { return state_->solve_step.dt; }
+std::int64_t Simulation::steps() const { return state_->steps; }
+SolveReport Simulation::last_solve() const { return state_->report; }
+SolverTotals Simulation::solver_totals() const { return state_->solver; }
+std::int64_t Simulation::list_builds() const { return state_->builds; }
+std::size_t Simulation::device_bytes() const { return state_->context.allocated(); }
+DeviceCounts Simulation::device_counts() const { return state_->context.counts(); }
+std::map<std::string, double> Simulation::timings() const { return state_->context.timings(); }
+
+}  // namespace slagflow

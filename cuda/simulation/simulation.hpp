@@ -1,0 +1,180 @@
+// The simulation: owns all particle data on the device and advances it step by step.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "backend/device.hpp"
+#include "fluid/saved_state.hpp"
+#include "fluid/setup.hpp"
+
+namespace slagflow {
+
+// Host copies of the state, in order of particle id. Vectors are reused between calls.
+struct FluidSnapshot {
+  double time = 0;                       // [s]
+  std::vector<Vec3d> position;           // [m]
+  std::vector<Vector3<float>> velocity;  // [m/s]
+  std::vector<float> pressure;           // [Pa]
+  std::vector<float> density;            // [kg/m^3]
+  std::vector<float> viscosity;          // [Pa s]
+  std::vector<float> shear_rate;         // [1/s]
+  std::vector<float> shear_stress;       // [Pa]
+  std::vector<std::uint8_t> yielded;     // 1 where that exceeds the yield stress
+  std::vector<std::uint8_t> fluid;       // index of the fluid
+  std::vector<std::int64_t> id;          // constant through the run
+};
+
+struct WallSnapshot {
+  double time = 0;
+  bool moves = false;              // whether positions change, or particles vanish, during the run
+  std::vector<Vec3d> position;     // [m]
+  std::vector<float> pressure;     // [Pa]
+  std::vector<std::uint8_t> body;  // index of the body
+};
+
+enum class Reading { fluid, fluid_and_walls };
+
+// Host copies of a simulation's state under way; see Simulation::start_reading(). Ends before the simulation.
+class StateTransfer {
+ public:
+  StateTransfer();
+  ~StateTransfer();
+  StateTransfer(const StateTransfer&) = delete;
+  StateTransfer& operator=(const StateTransfer&) = delete;
+
+  bool under_way() const;
+  // Waits until all has arrived, and gives it; the walls as they are where they were not read. Any thread may
+  // do so while the simulation steps on. Throws Error when the device has failed.
+  void finish(FluidSnapshot&, WallSnapshot&);
+
+ private:
+  friend class Simulation;
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+struct FrontState {
+  std::int64_t passed = 0;  // particles beyond the plane, those that left through a face beyond it included
+  Vec3d mean_position;      // [m] of those beyond it that are still in the domain
+  double extreme = 0;       // [m] leading coordinate along the axis
+};
+
+// What has passed a plane, in particles. passed + behind + lost_behind = start_behind, unless the axis is
+// periodic.
+struct PlaneState {
+  std::int64_t passed = 0;        // along the plane's direction less against it, since the start
+  std::int64_t behind = 0;        // in the domain, not beyond the plane
+  std::int64_t lost_behind = 0;   // left the domain while behind the plane
+  std::int64_t start_behind = 0;  // behind at the start
+};
+
+// The fluid at a point of a line; not-a-number where there is too little of it.
+struct ProfilePoint {
+  double distance = 0;    // [m] from the start of the line
+  Vec3d position;         // [m]
+  Vec3d velocity;         // [m/s]
+  double shear_rate = 0;  // [1/s]
+  double viscosity = 0;   // [Pa s]
+  double fill = 0;        // sum of V_j W: 1 inside of the fluid
+};
+
+// What the fluid did to a wall since the start, as integrals over time: forces [N s], torques [N m s] about
+// the origin; and the work the wall did on the fluid [J].
+struct WallLoad {
+  Vec3d pressure, viscous;
+  Vec3d pressure_torque, viscous_torque;
+  double work = 0;
+};
+
+struct Totals {
+  std::int64_t particles = 0;              // fluid particles in the domain
+  std::array<std::int64_t, 6> departed{};  // through -x +x -y +y -z +z
+  double mass_start = 0;                   // [kg] at the start
+  double mass_in = 0;                      // [kg] in the domain
+  double mass_left = 0;                    // [kg] departed
+  double max_speed = 0;                    // [m/s]
+  double kinetic_energy = 0;               // [J]
+  double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
+  double dissipated_energy = 0;            // [J], by viscosity since the start
+  double max_density_error = 0;     // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
+  double min_density_ratio = 1;     // smallest rho/rho0
+  Vec3d momentum;                   // [kg m/s]
+  Vec3d angular_momentum;           // [kg m^2/s] about the origin
+  std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
+  std::vector<PlaneState> planes;   // one per SimulationSetup::planes
+  std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
+  std::vector<WallLoad> walls;      // one per SimulationSetup::bodies where SimulationSetup::measure_walls
+};
+
+struct SolveReport {
+  int iterations = 0;
+  double residual = 0;        // ||b - A u|| / ||b||, of the true residual
+  double velocity_error = 0;  // bound of the rms velocity error [m/s]: ||r|| / (m sqrt(N))
+  bool converged = true;
+};
+
+struct SolverTotals {
+  std::int64_t steps = 0, iterations = 0;
+  int max_iterations = 0;
+  double worst_residual = 0;
+  // With an exact yield stress: its iterations, and the solves that ended at the most allowed.
+  std::int64_t yield_iterations = 0, yield_unconverged = 0;
+  std::int64_t retried = 0;  // solves that did not converge and were repeated with half the time step
+};
+
+class Simulation {
+ public:
+  // Copies the setup to the device. Throws Error on impossible input or lack of memory.
+  explicit Simulation(const SimulationSetup& setup);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  // Advances by one time step. Throws Error when the state cannot go on: not-a-number, unconverged solve, or,
+  // looked at every few steps, a limit of SimulationSetup::limits.
+  void step();
+  // Looks at the limits now. Throws Error as step does.
+  void require_sound();
+
+  double time() const;       // [s]
+  double time_step() const;  // [s] of the last step; of the coming one before the first
+  // [s] over which the last step changed the velocities: they are those of half a step before time().
+  double velocity_time_step() const;
+  std::int64_t steps() const;
+  std::int64_t particles() const;        // fluid, in the domain as of the last build of the lists
+  std::vector<Vec3d> positions() const;  // [m] of the fluid, in no order
+  Totals totals();
+  // Where fluid particles are that may be inside walls, and may be beside an edge (penetration.hpp) [m].
+  std::vector<Vec3d> below_wall_faces();
+  SolveReport last_solve() const;
+  SolverTotals solver_totals() const;
+  double neighbours_mean() const;  // fluid and wall particles within the support radius, itself not counted
+  std::int64_t list_builds() const;
+  std::size_t device_bytes() const;               // memory held on the device
+  std::map<std::string, double> timings() const;  // [s] by part of the step
+  DeviceCounts device_counts() const;             // what the host has asked of the device
+
+  // The whole state, and back: a simulation made from the same setup and restored goes on to the same bits.
+  // Throws Error when the state does not belong to the setup or to this build's precision.
+  SavedState save() const;
+  void restore(const SavedState&);
+
+  void read(FluidSnapshot&);
+  void read(FluidSnapshot&, WallSnapshot&);
+  // The same without waiting: what is there now arrives while steps go on, and StateTransfer::finish() gives
+  // it. With nothing under way in the transfer. A CPU build copies at once. Throws Error when memory ends.
+  void start_reading(StateTransfer&, Reading);
+  // Along SimulationSetup::lines[line].
+  std::vector<ProfilePoint> profile(std::size_t line) const;
+
+ private:
+  friend class StateTransfer;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace slagflow

@@ -1,0 +1,68 @@
+// What a simulation tells of itself: totals and profiles.
+#include "backend/launch.hpp"
+#include "simulation/simulation_state.hpp"
+#include "viscosity/shear_stress.hpp"
+
+namespace slagflow {
+
+namespace {
+
+struct NoStress {
+  Span<Real> result;
+  HOST_DEVICE void operator()(Index i) const { result[i] = 0; }
+};
+
+}  // namespace
+
+double Simulation::neighbours_mean() const {
+  State& s = *state_;
+  return mean_neighbours(s.context, s.pairs(), s.diagnostics);
+}
+
+Totals Simulation::totals() {
+  State& s = *state_;
+  Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
+  t.particles = s.fluid.count;
+  t.mass_start = s.start_mass;
+  t.dissipated_energy = s.taken + s.wall_work().viscous;
+  for (std::size_t kind = 0; kind < s.departed.size(); ++kind)
+    for (std::size_t face = 0; face < faces; ++face) {
+      t.departed[face] += s.departed[kind][face];
+      t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
+    }
+  if (s.setup.measure_walls)
+    for (std::size_t body = 0; body < s.setup.bodies.size(); ++body) {
+      t.walls.push_back(s.wall_forces.load(body));
+      WallLoad& load = t.walls.back();  // torques about the lower corner become those about the origin
+      load.pressure_torque += cross(s.setup.domain.lower, load.pressure);
+      load.viscous_torque += cross(s.setup.domain.lower, load.viscous);
+    }
+  // What left through the face beyond a front's plane has passed it.
+  for (std::size_t k = 0; k < t.fronts.size(); ++k) {
+    const FrontSetup& front = s.setup.fronts[k];
+    t.fronts[k].passed += t.departed[2 * static_cast<std::size_t>(front.axis) + (front.sign > 0 ? 1U : 0U)];
+  }
+  t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
+  for (const BoxSetup& box : s.setup.boxes)
+    t.boxes.push_back(count_in_box(s.context, s.fluid, box, s.setup.domain.lower, s.diagnostics));
+  return t;
+}
+
+std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
+  State& s = *state_;
+  const ProfileSource source{
+      s.fluid, s.ordering.fluid_sources(s.fluid), s.box, s.reach.support, s.displacement, s.setup.dimensions};
+  return measure_profile(s.context, source, s.setup.lines.at(line), s.setup.domain.lower);
+}
+
+// Before the first step there are no pairs, and no stress.
+void Simulation::State::measure_stress(Span<Real> result) {
+  if (builds == 0)
+    launch(context, "shear stress", fluid.count, NoStress{result});
+  else if (exact_yield())
+    viscous.exact_yield().measure_stress(pairs(), fluid.shear_rate.span(), result);
+  else
+    measure_shear_stress(context, pairs(), result);
+}
+
+}  // namespace slagflow

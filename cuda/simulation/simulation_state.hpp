@@ -1,0 +1,102 @@
+// What a simulation holds; shared by the sources that step it and read it.
+#pragma once
+
+#include <optional>
+
+#include "backend/launch_graph.hpp"
+#include "backend/side_copy.hpp"
+#include "capillarity/surface_tension.hpp"
+#include "fluid/constants.hpp"
+#include "neighbours/list_age.hpp"
+#include "neighbours/neighbours.hpp"
+#include "neighbours/ordering.hpp"
+#include "observation/diagnostics.hpp"
+#include "observation/measures.hpp"
+#include "observation/penetration.hpp"
+#include "observation/wall_forces.hpp"
+#include "observation/watch.hpp"
+#include "pressure/density.hpp"
+#include "simulation/simulation.hpp"
+#include "viscosity/viscous.hpp"
+#include "walls/moving_walls.hpp"
+
+namespace slagflow {
+
+struct Simulation::State {
+  explicit State(const SimulationSetup& s);
+
+  SimulationSetup setup;
+  Context context;
+  FlowConstants flow;
+  PeriodicBox box;
+  ListReach reach;
+  Buffer<FluidConstants> fluids;
+  FluidArrays fluid;
+  WallArrays wall;
+  MovingWalls walls;
+  Ordering ordering;
+  NeighbourList fluid_list, wall_list, wall_to_fluid;
+  ListAge list_age;
+  WallForces wall_forces;
+  SurfaceTension surface_tension;
+  Buffer<Quad> list_places, wall_list_places;  // of the fluid and of moving walls when the lists were built
+  double list_time = 0;                        // [s], of those places
+  Buffer<Real> scratch;
+  ViscousStep::Step solve_step{};  // of the solve under way
+  std::optional<StepRecord> last;  // of the last step, when it tells how far the particles have moved
+  ViscousStep viscous;
+  DiagnosticScratch diagnostics;
+  Watch watch;
+  PlaneCounters planes;
+  BelowFaces below_faces;
+
+  double time = 0, dt = 0, full_dt = 0, displacement = 0, capillary_work = 0;
+  double last_dt = 0;  // [s] that the last step took; 0 before the first
+  double taken = 0;    // [J] by viscous forces from the fluid: what they dissipate less the work of walls
+  double given = 0;    // [J] to the fluid by pairing and the pressure of walls
+  std::int64_t steps = 0, builds = 0;
+  std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
+  double start_mass = 0;
+  Index start_count = 0;  // particles at the start: more than any id
+  DepartureCounts departed;
+  SolveReport report;
+  SolverTotals solver;
+  LaunchGraph step_graph;
+  Buffer<std::uint8_t> yielded;  // for snapshots
+  SideStream side_stream;
+  StateTransfer own_transfer;
+
+  void upload_fluid();
+  void upload_walls();
+  void rebuild();
+  void build_lists();
+  void restore_walls();
+  void rebuild_lists_as_saved();
+  bool exact_yield() const { return setup.numerics.yield == YieldModel::exact; }
+  bool lists_hold();
+  PairContext pairs() const;
+  double kick();
+  void choose_time_step();
+  double time_after_step() const;
+  double velocity_step() const;
+  ViscousStep::Step viscous_step();
+  void reserve_step();
+  void launch_step();
+  RowCells row_cells() const;
+  SolveResult finish_solve(const StepRecord&);
+  void launch_move();
+  StepRecord solve_and_move();
+  void solve(const StepRecord&);
+  [[noreturn]] void give_up(const SolveResult&);
+  bool ended_at_yield_iterations(const SolveResult&) const;
+  bool knows_wall_forces() const;
+  void add_wall_forces();
+  void shift();
+  WallWork wall_work();
+  void look();
+  void check_finite();
+  void check_departure() const;
+  void measure_stress(Span<Real> result);  // [Pa] of each particle
+};
+
+}  // namespace slagflow

@@ -1,0 +1,132 @@
+// Keeps the stresses of an exact yield stress with their pairs when the neighbour lists are built anew.
+#include "backend/error.hpp"
+#include "backend/launch.hpp"
+#include "viscosity/exact_yield.hpp"
+
+namespace slagflow {
+
+namespace {
+
+// Finds p of the new rows in the old ones. Most neighbours stay, in their order: the search goes on from the
+// last one found.
+struct OldRow {
+  ListView list;  // its entries are ids
+  Index row;      // -1: there is none
+
+  HOST_DEVICE Offset find(Index id, Index& cursor) const {
+    if (row < 0) return -1;
+    const Index n = list.length[row];
+    for (Index t = 0; t < n; ++t) {
+      const Index k = cursor + t < n ? cursor + t : cursor + t - n;
+      const Offset at = list.row(row) + k * ListView::stride();
+      if (list.entry[at] != id) continue;
+      cursor = k + 1 < n ? k + 1 : 0;
+      return at;
+    }
+    return -1;
+  }
+};
+
+struct Carry {
+  ListView fluid_list, wall_list, old_fluid, old_wall;
+  Span<const Index> id, wall_id, row_of_id;
+  Span<const Real> held, relative, old_own, old_other, old_wall_stress;
+  Span<Real> new_held, new_relative, own, other, wall;
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Index row = id[i] < row_of_id.size ? row_of_id[id[i]] : -1;
+    const OldRow fluid_row{old_fluid, row}, wall_row{old_wall, row};
+    const Index n = fluid_list.length[i], walls = wall_list.length[i];
+    Index cursor = 0;
+    for (Index k = 0; k < whole_lanes(n); ++k) {
+      const Offset at = fluid_list.row(i) + k * ListView::stride();
+      const Offset from = k < n ? fluid_row.find(id[fluid_list.entry[at]], cursor) : -1;
+      own[at] = from < 0 ? 0 : old_own[from];
+      other[at] = from < 0 ? 0 : old_other[from];
+    }
+    cursor = 0;
+    for (Index k = 0; k < whole_lanes(walls); ++k) {
+      const Offset at = wall_list.row(i) + k * ListView::stride();
+      const Offset from = k < walls ? wall_row.find(wall_id[wall_list.entry[at]], cursor) : -1;
+      wall[at] = from < 0 ? 0 : old_wall_stress[from];
+    }
+    new_held[i] = row < 0 ? Real(1) : held[row];
+    new_relative[i] = row < 0 ? Real(0) : relative[row];
+  }
+};
+
+struct Fill {
+  Span<Index> to;
+  HOST_DEVICE void operator()(Index i) const { to[i] = -1; }
+};
+
+struct RowOfId {
+  Span<const Index> id;
+  Span<Index> row;
+  HOST_DEVICE void operator()(Index i) const { row[id[i]] = i; }
+};
+
+// Keeps a list with ids for its entries.
+struct Record {
+  ListView list;
+  Span<const Index> id;
+  Span<Index> length, entry;
+  HOST_DEVICE void operator()(Index i) const {
+    const Offset first = list.row(i);
+    length[i] = list.length[i];
+    for (Index k = 0; k < list.length[i]; ++k) {
+      const Offset at = first + k * ListView::stride();
+      entry[at] = id[list.entry[at]];
+    }
+  }
+};
+
+struct CopySlice {
+  Span<const Offset> from;
+  Span<Offset> to;
+  HOST_DEVICE void operator()(Index s) const { to[s] = from[s]; }
+};
+
+}  // namespace
+
+void ExactYield::follow(const Lists& lists, Index ids) {
+  constexpr Offset margin_percent = 1;
+  const Offset n = lists.fluid_id.size();
+  spare_own_.resize(lists.fluid.capacity(), margin_percent);
+  spare_other_.resize(lists.fluid.capacity(), margin_percent);
+  spare_wall_.resize(lists.wall.capacity(), margin_percent);
+  spare_held_.resize(n), spare_relative_.resize(n);
+  launch(context_, "carry yield stresses", static_cast<Index>(n),
+         Carry{lists.fluid.view(), lists.wall.view(), fluid_layout_.view(), wall_layout_.view(),
+               lists.fluid_id.span(), lists.wall_id.span(), row_of_id_.span(), held_.span(), relative_.span(),
+               own_.span(), other_.span(), wall_.span(), spare_held_.span(), spare_relative_.span(),
+               spare_own_.span(), spare_other_.span(), spare_wall_.span()});
+  own_.swap(spare_own_), other_.swap(spare_other_), wall_.swap(spare_wall_);
+  held_.swap(spare_held_), relative_.swap(spare_relative_);
+  remember(lists, ids);
+}
+
+void ExactYield::remember(const Lists& lists, Index ids) {
+  const Offset n = lists.fluid_id.size();
+  const bool fits = own_.size() == lists.fluid.capacity() && other_.size() == own_.size() &&
+                    wall_.size() == lists.wall.capacity() && held_.size() == n && relative_.size() == n;
+  if (!fits) throw Error("checkpoint: its yield stresses do not belong to this case");
+  row_of_id_.resize(ids);
+  launch(context_, "rows of ids", ids, Fill{row_of_id_.span()});
+  launch(context_, "rows of ids", static_cast<Index>(n), RowOfId{lists.fluid_id.span(), row_of_id_.span()});
+  record(lists.fluid, lists.fluid_id.span(), fluid_layout_);
+  record(lists.wall, lists.wall_id.span(), wall_layout_);
+}
+
+void ExactYield::record(const NeighbourList& list, Span<const Index> id, Layout& layout) {
+  constexpr Offset margin_percent = 1;
+  const ListView view = list.view();
+  layout.slice.resize(view.slice.size), layout.length.resize(view.length.size);
+  layout.id.resize(list.capacity(), margin_percent);
+  launch(context_, "record slices", static_cast<Index>(view.slice.size),
+         CopySlice{view.slice, layout.slice.span()});
+  launch(context_, "record pairs", static_cast<Index>(view.length.size),
+         Record{view, id, layout.length.span(), layout.id.span()});
+}
+
+}  // namespace slagflow

@@ -1,0 +1,127 @@
+// The linear system of the implicit viscous step, as the solvers see it: no smoothing functions, no rheology.
+//   (A u)_i = m_i u_i + B_i u_i + sum_j w_ij d_ij (d_ij . (u_i - u_j))  or, isotropic, w_ij |d_ij|^2 (u_i -
+//   u_j)
+// with w_ij = w_ji >= 0 and d_ij = -d_ji, hence A symmetric and positive definite: A >= m. Of a pair only the
+// weight is stored; d_ij comes from the places, which a processor's cache has at hand.
+#pragma once
+
+#include "backend/buffer.hpp"
+#include "fluid/lane_math.hpp"
+#include "neighbours/cells.hpp"
+#include "neighbours/neighbours.hpp"
+
+namespace slagflow {
+
+struct LinearSystem {
+  Index size = 0;
+  ListView links;                    // the particles that row i may be linked to
+  Span<const Real> weight;           // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
+  Span<const Quad> place;            // xyz: [m]
+  Span<const Quad> diagonal;         // xyz: diagonal of A [kg], w: mass [kg]
+  Span<const Symmetric3> wall;       // B_i [kg]
+  Span<const Quad> right_hand_side;  // [kg m/s]
+  PeriodicBox box;
+  PairCoupling coupling = PairCoupling::radial;
+
+  // Calls use(space) with the box, or with an open one: what `use` calls is compiled, and inlined, for each.
+  template <class Use>
+  HOST_DEVICE void in_box(Use use) const {
+    box.any() ? use(box) : use(OpenBox{});
+  }
+
+  // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
+  template <class Box, class Visit>
+  HOST_DEVICE void for_links(const Box& space, Index i, Visit visit) const {
+    const LaneVec3 centre = in_lanes(xyz(place[i]));
+    const Offset first = links.row(i);
+    const Index n = links.length[i];
+    for (Index k = 0; k < n; k += lane_count) {
+      const Offset at = first + k * ListView::stride();
+      const Lanes w = load_lanes(&weight[at]);
+      const Index* j = &links.entry[at];
+      visit(j, w, space.separation(centre, xyz(gather(place, j))));
+    }
+  }
+
+  // (A u)_i
+  HOST_DEVICE Vec3 apply(Index i, Span<const Quad> u) const {
+    const Vec3 here = xyz(u[i]);
+    const LaneVec3 centre = in_lanes(here);
+    LaneVec3 sum;
+    in_box([&](const auto& space) {
+      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum += couple(coupling, w, d, centre - xyz(gather(u, j)));
+      });
+    });
+    return on_diagonal(i, here) + total(sum);
+  }
+
+  // (A u)_i and (A v)_i in one pass over the links.
+  struct Two {
+    Vec3 u, v;
+  };
+  HOST_DEVICE Two apply(Index i, Span<const Quad> u, Span<const Quad> v) const {
+    const LaneVec3 here_u = in_lanes(xyz(u[i])), here_v = in_lanes(xyz(v[i]));
+    LaneVec3 sum_u, sum_v;
+    in_box([&](const auto& space) {
+      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum_u += couple(coupling, w, d, here_u - xyz(gather(u, j)));
+        sum_v += couple(coupling, w, d, here_v - xyz(gather(v, j)));
+      });
+    });
+    return {on_diagonal(i, xyz(u[i])) + total(sum_u), on_diagonal(i, xyz(v[i])) + total(sum_v)};
+  }
+
+ private:
+  HOST_DEVICE Vec3 on_diagonal(Index i, Vec3 here) const { return diagonal[i].w * here + wall[i] * here; }
+};
+
+// What a stationary solver needs of row i: b - A u and the 3x3 diagonal block of A. The point diagonal would
+// not do: the outer product of an oblique link is up to three times as large as its diagonal.
+struct RelaxationRow {
+  Vec3 residual;
+  Symmetric3 block;
+
+  HOST_DEVICE RelaxationRow(const LinearSystem& system, Index i, Span<const Quad> u) : block(system.wall[i]) {
+    const Vec3 here = xyz(u[i]);
+    const LaneVec3 centre = in_lanes(here);
+    const Real mass = system.diagonal[i].w;
+    LaneVec3 sum;
+    SymmetricMatrix3<Lanes> links;
+    system.in_box([&](const auto& space) {
+      system.for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum += couple(system.coupling, w, d, centre - xyz(gather(u, j)));
+        add_coupling(system.coupling, w, d, links);
+      });
+    });
+    residual = xyz(system.right_hand_side[i]) - mass * here - block * here - total(sum);
+    block += total(links);
+    block.add_diagonal(mass);
+  }
+};
+
+// Rows in the order of cells, for solvers that need independent sets of rows or groups of neighbours: rows of
+// two cells that do not touch are not linked.
+struct RowCells {
+  CellGrid grid;
+  Span<const Index> cell_start;
+  std::uint64_t arrangement = 0;  // the same only while the cells hold the same rows; 0: never
+};
+
+struct SolveLimits {
+  double residual = 0;  // stop when ||b - A u|| is at most this [kg m/s]
+  double energy = 0;    // or when an upper bound of the error's r.A^-1 r is at most this [kg m^2/s^2]
+  int max_iterations = 200;
+  double relaxation = 1.2;    // of SOR
+  double start_residual = 0;  // ||b - A u|| of the first guess
+};
+
+struct SolveResult {
+  int iterations = 0;
+  double residual = 0;         // ||b - A u|| at the end, evaluated from u
+  double right_hand_side = 0;  // ||b||
+  bool converged = false;
+  int yield_iterations = 0;  // of an exact yield stress (exact_yield.hpp)
+};
+
+}  // namespace slagflow

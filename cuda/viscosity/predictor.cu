@@ -1,0 +1,129 @@
+#include "backend/launch.hpp"
+#include "fluid/lane_math.hpp"
+#include "fluid/smoothing/lucy.hpp"
+#include "pressure/pair_pressure.hpp"
+#include "viscosity/pair_viscosity.hpp"
+#include "viscosity/predictor.hpp"
+#include "walls/wall_tension.hpp"
+
+namespace slagflow {
+
+namespace {
+
+template <class Smoothing, class Box>
+struct PredictAndAssemble {
+  PairContext c;
+  Smoothing smoothing;
+  Box box;
+  Real dt, implicit_dt;  // implicit_dt = theta dt
+  PredictorOutput out;
+
+  // w d_k^2 along axis k, or w |d|^2.
+  template <class T>
+  HOST_DEVICE Vector3<T> pair_diagonal(T weight, Vector3<T> d) const {
+    if (c.flow.coupling == PairCoupling::radial)
+      return {weight * square(d.x), weight * square(d.y), weight * square(d.z)};
+    const T sum = weight * dot(d, d);
+    return {sum, sum, sum};
+  }
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Vec3 x = xyz(c.fluid.place[i]);
+    const Quad own = c.fluid.state[i];
+    const Real factor = -implicit_dt * c.flow.operator_factor;
+    LaneVec3 pressure, pairing, diagonal;
+    const Offset first = c.fluid_list.row(i);
+    const Index entries = c.fluid_list.length[i];
+    for (Index k = 0; k < entries; k += lane_count) {
+      const Offset at = first + k * ListView::stride();
+      const Index* j = &c.fluid_list.entry[at];
+      const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.fluid.place, j)));
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
+      Lanes weight = 0;
+      if (bits(near)) {
+        const QuadLanes other = gather(c.fluid.state, j);
+        const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0)), share = other.z * f;
+        pressure -= (share * (own.x + other.x)) * d;
+        if (bits(near & (r < Lanes(c.flow.spacing))))
+          pairing -= (share * pairing_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
+        // The same bits for j and i.
+        const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
+        weight = (factor * own.z * share) * mean / (r2 + c.flow.softening);
+        diagonal += pair_diagonal(weight, d);
+      }
+      store_lanes(&out.weight[at], weight);
+    }
+    Push push{own.z * total(pressure), own.z * total(pairing)};
+    WallPart part = walls(i, x, own, push);
+    finish(i, own, push, part, total(diagonal));
+  }
+
+  // Forces by pressure [N]: what the elastic energy of the fluid balances, and the rest, by pairing and by
+  // the pressure of walls.
+  struct Push {
+    Vec3 elastic, given;
+  };
+  struct WallPart {
+    Symmetric3 block;
+    Vec3 drag;
+  };
+
+  HOST_DEVICE WallPart walls(Index i, Vec3 x, Quad own, Push& push) const {
+    const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+    LaneVec3 elastic, given, drag;
+    SymmetricMatrix3<Lanes> coupled;
+    const Offset first = c.wall_list.row(i);
+    const Index entries = c.wall_list.length[i];
+    for (Index k = 0; k < entries; k += lane_count) {
+      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.wall.place, j)));
+      const Lanes r2 = dot(d, d);
+      const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
+      if (!bits(near)) continue;
+      const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
+      const WallPressures<Lanes> p = towards_walls(c, i, own.x, wall_tension_limits(c, j));
+      elastic -= (f * p.elastic) * d;
+      given -=
+          (f * (pair_pressure(c.flow, smoothing, p.fluid, gather(c.wall.pressure, j), r) - p.elastic)) * d;
+      const QuadLanes motion = gather(c.wall.velocity, j);
+      const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
+      const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
+      const Lanes weight = -factor * stick * f / (r2 + c.flow.softening);
+      const Lanes sticking = select(motion.w < Lanes(0), Lanes(0), weight);
+      add_coupling(c.flow.coupling, sticking, d, coupled);
+      drag += couple(c.flow.coupling, sticking, d, xyz(motion));
+    }
+    const Real volumes = own.z * c.flow.wall_volume;
+    push.elastic += volumes * total(elastic), push.given += volumes * total(given);
+    return {total(coupled), total(drag)};
+  }
+
+  HOST_DEVICE void finish(Index i, Quad own, const Push& push, const WallPart& wall, Vec3 diagonal) const {
+    const Vec3 by_pressure = (1 / own.w) * (push.elastic + push.given);
+    Vec3 acceleration = by_pressure + c.flow.gravity + c.flow.body_acceleration;
+    if (c.capillary.size > 0) acceleration += xyz(c.capillary[i]);
+    const Vec3 old = xyz(c.fluid.motion[i]), predicted = old + dt * acceleration;
+    const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
+    out.by_pressure[i] = quad(rest_density * by_pressure, dt / 2 * dot(push.given, old + predicted));
+    out.predicted[i] = quad(predicted, 0);
+    out.wall[i] = wall.block;
+    out.diagonal[i] =
+        quad(Vec3{own.w, own.w, own.w} + diagonal + Vec3{wall.block.xx, wall.block.yy, wall.block.zz}, own.w);
+    out.right_hand_side[i] = quad(own.w * predicted + wall.drag, 0);
+  }
+};
+
+}  // namespace
+
+void predict_and_assemble(Context& context, const PairContext& c, const PredictorOutput& out, Real dt,
+                          Real theta) {
+  const Lucy smoothing(c.flow.support, c.flow.dimensions);
+  auto sweep = [&](auto box) {
+    launch(context, "predictor and assembly", c.fluid.count,
+           PredictAndAssemble<Lucy, decltype(box)>{c, smoothing, box, dt, theta * dt, out});
+  };
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+}
+
+}  // namespace slagflow

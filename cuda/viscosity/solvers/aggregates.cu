@@ -1,0 +1,124 @@
+#include "backend/launch.hpp"
+#include "backend/primitives.hpp"
+#include "viscosity/solvers/aggregates.hpp"
+
+namespace slagflow {
+
+namespace {
+
+struct HoldsRows {
+  Span<const Index> cell_start;
+  Span<Offset> held;
+  HOST_DEVICE void operator()(Index cell) const {
+    held[cell] = cell_start[cell + 1] > cell_start[cell] ? 1 : 0;
+  }
+};
+
+struct HoldsAggregates {
+  AggregateView finer;
+  AggregateGrid grid;
+  Span<Offset> held;
+  HOST_DEVICE void operator()(Index cell) const {
+    Offset any = 0;
+    for (int child = 0; child < 8; ++child) {
+      const int part[3] = {child & 1, child >> 1 & 1, child >> 2};
+      Index number = 0;
+      bool inside = true;
+      for (int axis = 2; axis >= 0; --axis) {
+        const int c = 2 * grid.along(cell, axis) + part[axis];
+        inside = inside && c < finer.grid.count[axis];
+        number = number * finer.grid.count[axis] + c;
+      }
+      if (inside && finer.number[number] >= 0) any = 1;
+    }
+    held[cell] = any;
+  }
+};
+
+struct Number {
+  Span<const Offset> held, before;
+  AggregateGrid grid;
+  Span<Index> number, cell;
+  Span<CellSteps> steps;
+  HOST_DEVICE void operator()(Index c) const {
+    const auto own = static_cast<Index>(before[c]);
+    number[c] = held[c] ? own : -1;
+    if (held[c]) cell[own] = c, steps[own] = grid.steps(c);
+  }
+};
+
+struct FindNeighbours {
+  AggregateGrid grid;
+  Span<const Index> number, cell;
+  Span<Index> neighbour;
+  HOST_DEVICE void operator()(Index i) const {
+    for (int slot = 0; slot < neighbour_slots; ++slot) {
+      const Index other = grid.cell_in(cell[i], slot);
+      neighbour[static_cast<Offset>(i) * neighbour_slots + slot] = other < 0 ? -1 : number[other];
+    }
+  }
+};
+
+}  // namespace
+
+AggregateGrid AggregateGrid::from(const CellGrid& cells) {
+  AggregateGrid grid;
+  for (int k = 0; k < 3; ++k) {
+    grid.count[k] = cells.count[k];
+    grid.periodic[k] = cells.periodic[k];
+    grid.width[k] = 1 / static_cast<double>(cells.inverse_width[k]);
+  }
+  grid.scale = cells.narrowest;
+  return grid;
+}
+
+AggregateGrid AggregateGrid::coarser() const {
+  AggregateGrid grid = *this;
+  for (int k = 0; k < 3; ++k) {
+    grid.count[k] = (count[k] + 1) / 2;
+    grid.width[k] = 2 * width[k];
+  }
+  grid.scale = 2 * scale;
+  return grid;
+}
+
+Aggregates::Aggregates(Context& c)
+    : context_(c),
+      held_(c, "occupied cells"),
+      before_(c, "occupied cells"),
+      cell_(c, "cells of aggregates"),
+      number_(c, "aggregates of cells"),
+      neighbour_(c, "neighbours of aggregates"),
+      steps_(c, "cells of aggregates") {}
+
+void Aggregates::find(const RowCells& rows) {
+  grid_ = AggregateGrid::from(rows.grid);
+  held_.resize(grid_.cells());
+  launch(context_, "occupied cells", grid_.cells(), HoldsRows{rows.cell_start, held_.span()});
+  number_cells();
+}
+
+void Aggregates::find(const AggregateView& finer) {
+  grid_ = finer.grid.coarser();
+  held_.resize(grid_.cells());
+  launch(context_, "occupied cells", grid_.cells(), HoldsAggregates{finer, grid_, held_.span()});
+  number_cells();
+}
+
+void Aggregates::number_cells() {
+  const Index cells = grid_.cells();
+  before_.resize(cells + 1), number_.resize(cells);
+  exclusive_scan(context_, held_.span(), before_.span());
+  Offset total = 0;
+  context_.copy_to_host(&total, before_.span().data + cells, sizeof total);
+  count_ = static_cast<Index>(total);
+  constexpr Offset margin_percent = 10;
+  cell_.resize(count_, margin_percent), steps_.resize(count_, margin_percent);
+  neighbour_.resize(total * neighbour_slots, margin_percent);
+  launch(context_, "number aggregates", cells,
+         Number{held_.span(), before_.span(), grid_, number_.span(), cell_.span(), steps_.span()});
+  launch(context_, "neighbours of aggregates", count_,
+         FindNeighbours{grid_, number_.span(), cell_.span(), neighbour_.span()});
+}
+
+}  // namespace slagflow

@@ -1,0 +1,86 @@
+#include "host/case/case.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "backend/error.hpp"
+#include "host/case/case_sections.hpp"
+
+namespace slagflow {
+namespace {
+
+constexpr std::streamoff largest_file = 16 << 20;  // a case file is a few kB; more is a mistake
+
+std::string read_text(const std::string& path) {
+  std::error_code failure;
+  std::ifstream stream(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  if (size < 0 || !std::filesystem::is_regular_file(path, failure))
+    throw InputError(path + ": cannot be read: allowed: a case file (TOML)");
+  if (size > largest_file)
+    throw InputError(path + ": " + std::to_string(size) + " bytes: allowed: a case file up to " +
+                     std::to_string(largest_file) + " bytes");
+  std::string text(static_cast<std::size_t>(size), '\0');
+  stream.seekg(0);
+  if (!stream.read(text.data(), size))
+    throw InputError(path + ": cannot be read: allowed: a case file (TOML)");
+  return text;
+}
+
+void apply_overrides(Toml& root, const std::vector<std::string>& overrides, CaseProblems& problems) {
+  for (const std::string& assignment : overrides) {
+    try {
+      apply_override(root, assignment);
+    } catch (const InputError& e) {
+      problems.add_message(e.what());
+    }
+  }
+}
+
+}  // namespace
+
+Case load_case(const std::string& path, const std::vector<std::string>& overrides) {
+  return parse_case(read_text(path), path, overrides);
+}
+
+Case parse_case(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+  Toml root = parse_toml(text, file);
+  CaseProblems problems(file);
+  apply_overrides(root, overrides, problems);
+  Case c;
+  c.file = file;
+  CaseTable top(&root, "", Place{file + ":1", 0}, problems);
+  read_frame(top, c);
+  read_fluids(top, c);
+  read_regions(top, c);
+  read_walls(top, c);
+  read_numerics(top, c);
+  read_limits(top, c);
+  read_output(top, c);
+  read_measures(top, c);
+  top.finish();
+  check_across_tables(c, problems);
+  problems.raise();
+  for (const auto& [key, place] : problems.places()) c.places[key] = place.text;
+  return c;
+}
+
+Direction down(const Case& c) {
+  const Vec3d g = c.gravity;
+  const int xy = std::abs(g.y) > std::abs(g.x) ? 1 : 0;
+  const int axis = std::abs(g.z) >= std::abs(g[xy]) ? 2 : xy;
+  return {axis, g[axis] > 0 ? 1 : -1};
+}
+
+std::string Case::place_of(const std::string& key) const {
+  for (std::string part = key; !part.empty();) {
+    const auto found = places.find(part);
+    if (found != places.end()) return found->second;
+    const auto dot = part.rfind('.');
+    part = dot == std::string::npos ? "" : part.substr(0, dot);
+  }
+  return file;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,165 @@
+// A case: everything a case file says, in SI units, with the defaults filled in.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "fluid/models.hpp"
+#include "fluid/setup.hpp"
+
+namespace slagflow {
+
+// One of +x -x +y -y +z -z.
+struct Direction {
+  int axis = 0;  // 0 x, 1 y, 2 z
+  int sign = 1;  // +1 or -1
+};
+
+struct BoxSpec {
+  Vec3d min, max;  // [m]
+};
+// The half-space on the side away from the normal.
+struct PlaneSpec {
+  Vec3d point;   // [m]
+  Vec3d normal;  // any length but 0
+};
+struct CylinderSpec {
+  Vec3d start, end;   // [m] ends of the axis
+  double radius = 0;  // [m]
+};
+struct SphereSpec {
+  Vec3d center;       // [m]
+  double radius = 0;  // [m]
+};
+struct StlSpec {
+  std::string file;  // absolute path
+  double scale = 1;  // [m] per unit of the file
+  Vec3d translate;   // [m], added after scaling
+};
+
+struct ShapeSpec {
+  std::variant<BoxSpec, PlaneSpec, CylinderSpec, SphereSpec, StlSpec> form;
+  bool outside = false;  // everything outside of the form: a container
+};
+
+struct FluidSpec {
+  std::string name;
+  double density = 0;          // [kg/m^3]
+  double surface_tension = 0;  // [N/m]
+  RheologyKind rheology = RheologyKind::newtonian;
+  std::array<double, most_parameters> parameters{};  // in the order of RheologyInfo::parameters
+
+  const RheologyInfo& info() const { return rheologies[static_cast<std::size_t>(rheology)]; }
+};
+
+enum class InitialPressure { hydrostatic, zero, uniform };
+
+// A plane wave of velocity: amplitude sin(2 pi wave_vector.x + phase).
+struct WaveSpec {
+  Vec3d amplitude;    // [m/s]
+  Vec3d wave_vector;  // [1/m], one over the wavelength
+  double phase = 0;   // [rad]
+};
+
+struct RegionSpec {
+  int fluid = 0;  // index into Case::fluids
+  std::vector<ShapeSpec> shapes, subtract;
+  Vec3d velocity;          // [m/s]
+  Vec3d angular_velocity;  // [rad/s], about center
+  Vec3d center;            // [m]
+  std::vector<WaveSpec> waves;
+  InitialPressure pressure = InitialPressure::hydrostatic;
+  double uniform_pressure = 0;  // [Pa]
+  double jitter = 0;            // [spacings] that particles start away from the lattice, along each axis
+};
+
+struct WallSpec {
+  std::string name;
+  WallSlip slip = WallSlip::no_slip;
+  double slip_length = 0;     // [m], of partial slip
+  double contact_angle = 90;  // [degrees]
+  double tension_limit = -1;  // [Pa], up to that of [numerics]; < 0: that
+  RigidVelocity surface{};    // of the material along the surface
+  WallMotion motion{};
+  std::vector<ShapeSpec> shapes, subtract;
+};
+
+struct OutputSpec {
+  double end_time = 0;          // [s], time steps are cut to meet it
+  double until = 0;             // [s] the run ends with the first step at or after it; 0: at end_time
+  double interval = 0;          // [s] between snapshots
+  double history_interval = 0;  // [s] between lines of the history
+  bool walls = true;            // write the wall particles
+  // [s] of wall time between checkpoints; 0: only at the end and on signals
+  double checkpoint_interval = 300;
+  std::string stop_after;  // a front or jet that ends the run when it arrives; empty: none
+
+  double last_time() const { return until > 0 ? until : end_time; }
+};
+
+enum class MeasureType { front, jet, flow_rate, volume, profile, force };
+
+struct MeasureSpec {
+  std::string name;
+  MeasureType type = MeasureType::front;
+  double fraction = 0.002;  // front, jet: of all fluid particles that must have passed
+  Direction direction;      // front, flow_rate: the way it goes
+  double position = 0;      // [m] front, flow_rate: the line or plane, along that axis
+  Vec3d lip;                // [m] jet: the dam's lip
+  Direction outward;        // jet: horizontal, away from the wall
+  double bottom = 0;        // [m] jet: coordinate along gravity's axis where the leading edge arrives
+  Vec3d min, max;           // [m] volume: the box
+  Vec3d start, end;         // [m] profile: the line
+  int points = 50;          // profile: on the line, both ends included
+  int wall = 0;             // force: index into Case::walls
+  Vec3d about;              // [m] force: the point of its torque
+};
+
+struct Case {
+  std::string file;  // the case file, as given
+  std::string name, description;
+
+  double spacing = 0;          // [m]
+  double support_ratio = 2.6;  // support radius / spacing
+  int dimensions = 3;
+  Vec3d origin;  // [m], lattice sites at origin + (i + 1/2) spacing
+
+  Vec3d gravity{0, 0, -9.81};  // [m/s^2]
+  Vec3d body_force;            // [m/s^2]
+  std::vector<FluidSpec> fluids;
+  std::vector<RegionSpec> regions;
+  std::vector<WallSpec> walls;
+  DomainSetup domain;
+  std::array<bool, 6> exits{};  // faces -x +x -y +y -z +z that fluid is meant to leave through
+  std::string kernel = "lucy";
+  NumericsSetup numerics;  // sound_speed 0: automatic, see BuiltCase::resolved
+  LimitSetup limits;       // max_speed 0: automatic, see BuiltCase::resolved
+  OutputSpec output;
+  std::vector<MeasureSpec> measures;
+
+  // Dotted key -> where it was given ("FILE:LINE" or "--set key=value"), for messages.
+  std::map<std::string, std::string> places;
+
+  // Where a key or, failing that, the table around it was given; the file if neither is known.
+  std::string place_of(const std::string& key) const;
+};
+
+// Axis and sign of the largest component of gravity.
+Direction down(const Case& c);
+
+// Reads and validates a case file. Each override is "dotted.key=value"; its value is TOML or else a bare
+// string, and list entries are addressed by their index, as in "region.0.velocity=[1,0,0]".
+// Throws InputError with one line for each thing that is wrong.
+Case load_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+// The same from text; `file` names it in messages, and STL files are looked for next to it.
+Case parse_case(const std::string& text, const std::string& file,
+                const std::vector<std::string>& overrides = {});
+
+// The case as a TOML file with every key, defaults included. Loading it gives the same case.
+std::string to_toml(const Case& c);
+
+}  // namespace slagflow

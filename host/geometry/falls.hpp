@@ -1,0 +1,27 @@
+// How fast fluid will meet walls and other fluid, from where it is at the start.
+#pragma once
+
+#include <vector>
+
+#include "host/case/case.hpp"
+#include "host/geometry/start_sites.hpp"
+
+namespace slagflow {
+
+// Fluid that hangs together at the start, or has at most two open sites between it and fluid below.
+struct FluidBodies {
+  std::vector<std::int32_t> of;  // the body of each particle
+  std::int32_t count = 0;
+};
+FluidBodies fluid_bodies(const Case& c, const StartSites& sites);
+
+// The largest speed at which fluid will meet a wall or fluid at rest inside of the domain [m/s]; 0 where
+// nothing falls by more than two spacings. Walls that move or vanish count on the way but hold nothing: fluid
+// goes on from them. What leaves the domain on its way does not count. A body that rests on nothing flies
+// along its parabola. One that rests, by any part, may spread over the floors that it can reach downhill, and
+// what falls or leaps off their edges has the speed of a fall from its surface; after a fall, from its depth
+// above where it lands.
+double impact_speed(const Case& c, const StartSites& sites, const FluidParticles& fluid,
+                    const FluidBodies& bodies);
+
+}  // namespace slagflow

@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "backend/error.hpp"
+#include "host/case/toml_reader.hpp"
+#include "host/geometry/geometry.hpp"
+
+namespace slagflow {
+namespace {
+
+constexpr std::int64_t block = 8;      // sites along the edge of a block
+constexpr double tie = 1e-6;           // [spacings] nudge that decides for sites on a face
+constexpr double bytes_per_site = 6;   // flags, index of the wall and of the particle
+constexpr double largest_index = 1e9;  // keeps positions exact to a fraction of a spacing
+
+}  // namespace
+
+std::string gigabytes(double bytes) {
+  const double rounded = bytes < 1e15 ? std::round(bytes / 1e7) / 100 : bytes / 1e9;
+  char text[40];
+  std::snprintf(text, sizeof text, rounded < 1e6 ? "%.2f GB" : "%.2e GB", rounded);
+  return text;
+}
+
+namespace {
+
+// First site at or above a coordinate, counted from the origin.
+double site_above(double coordinate, double origin, double spacing) {
+  return std::ceil((coordinate - origin) / spacing - 0.5 - tie);
+}
+
+}  // namespace
+
+double available_memory() {
+  std::ifstream meminfo("/proc/meminfo");
+  std::string key;
+  for (double kilobytes = 0; meminfo >> key >> kilobytes; meminfo.ignore(100, '\n'))
+    if (key == "MemAvailable:") return 1024 * kilobytes;
+  return std::numeric_limits<double>::infinity();  // not told: allocation will
+}
+
+Lattice::Lattice(const Case& c)
+    : spacing_(c.spacing),
+      origin_(c.origin),
+      layers_(static_cast<std::int64_t>(std::ceil(c.support_ratio))),
+      flat_(c.dimensions == 2),
+      periodic_(c.domain.periodic),
+      lower_(c.domain.lower),
+      upper_(c.domain.upper) {
+  double sites = 1;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    if (flat_ && k == 1) {
+      count_[axis] = inner_last_[axis] = 1;
+      continue;
+    }
+    const double first = site_above(c.domain.lower[k], c.origin[k], spacing_);
+    const double last = site_above(c.domain.upper[k], c.origin[k], spacing_);
+    if (!(std::abs(first) < largest_index && std::abs(last) < largest_index))
+      throw InputError(c.place_of("resolution.spacing") + ": key 'resolution.spacing': value " +
+                       show(spacing_) + ": the domain reaches more than 1e9 spacings from the origin: " +
+                       "allowed: a larger spacing or a smaller domain");
+    const std::int64_t margin = periodic_[axis] ? 0 : layers_;
+    first_[axis] = static_cast<std::int64_t>(first) - margin;
+    count_[axis] = static_cast<std::int64_t>(last - first) + 2 * margin;
+    inner_first_[axis] = margin;
+    inner_last_[axis] = count_[axis] - margin;
+    sites *= static_cast<double>(count_[axis]);
+  }
+  const double available = available_memory();
+  if (sites * bytes_per_site > available)
+    throw InputError(c.place_of("resolution.spacing") + ": key 'resolution.spacing': the domain holds " +
+                     std::to_string(sites) + " lattice sites and needs " + gigabytes(sites * bytes_per_site) +
+                     " of memory, " + gigabytes(available) +
+                     " are available: allowed: a larger spacing or a smaller domain");
+}
+
+Vec3d Lattice::position(const SiteIndex& s) const {
+  Vec3d p;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    p[k] = origin_[k] + (static_cast<double>(first_[axis] + s[axis]) + 0.5) * spacing_;
+  }
+  if (flat_) p.y = 0;
+  return p;
+}
+
+bool Lattice::in_domain(const SiteIndex& s) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (s[k] < inner_first_[k] || s[k] >= inner_last_[k]) return false;
+  return true;
+}
+
+bool Lattice::in_domain(Vec3d p) const {
+  for (int k = 0; k < 3; ++k)
+    if (!(flat_ && k == 1) && !(p[k] >= lower_[k] && p[k] < upper_[k])) return false;
+  return true;
+}
+
+Vec3d Lattice::wrapped(Vec3d p) const {
+  for (int k = 0; k < 3; ++k) {
+    if (!periodic(k)) continue;
+    const double extent = upper_[k] - lower_[k];
+    p[k] -= extent * std::floor((p[k] - lower_[k]) / extent);
+  }
+  return p;
+}
+
+bool Lattice::move(SiteIndex& s, int axis, std::int64_t steps) const {
+  const auto k = static_cast<std::size_t>(axis);
+  s[k] += steps;
+  if (periodic_[k]) s[k] = ((s[k] % count_[k]) + count_[k]) % count_[k];
+  return s[k] >= 0 && s[k] < count_[k];
+}
+
+void Lattice::visit_inside(const Distance& distance, const Visit& visit) const {
+  SiteIndex first{};
+  for (first[2] = 0; first[2] < count_[2]; first[2] += block)
+    for (first[1] = 0; first[1] < count_[1]; first[1] += block)
+      for (first[0] = 0; first[0] < count_[0]; first[0] += block) visit_block(first, distance, visit);
+}
+
+void Lattice::visit_block(const SiteIndex& first, const Distance& distance, const Visit& visit) const {
+  SiteIndex last{};
+  for (std::size_t k = 0; k < 3; ++k) last[k] = std::min(first[k] + block, count_[k]) - 1;
+  const Vec3d low = position(first), high = position(last);
+  const double radius = 0.5 * norm(high - low) + 0.1 * spacing_;
+  const double middle = distance(0.5 * (low + high));
+  if (middle > radius) return;
+  const double nudge = tie * spacing_;
+  SiteIndex s = first;
+  for (s[2] = first[2]; s[2] <= last[2]; ++s[2])
+    for (s[1] = first[1]; s[1] <= last[1]; ++s[1])
+      for (s[0] = first[0]; s[0] <= last[0]; ++s[0]) {
+        const Vec3d p = position(s);
+        const Vec3d q = p + nudge * Vec3d{1, flat_ ? 0 : tie_direction.y, tie_direction.z};
+        if (middle < -radius || distance(q) < 0) visit(s, p);
+      }
+}
+
+}  // namespace slagflow

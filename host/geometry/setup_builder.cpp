@@ -1,0 +1,95 @@
+#include "host/geometry/setup_builder.hpp"
+
+#include "backend/error.hpp"
+#include "host/geometry/geometry.hpp"
+
+namespace slagflow {
+namespace {
+
+double automatic_sound_speed(const Case& c, const std::vector<SoundSpeedTerm>& terms) {
+  const double speed = ruling(terms).sound_speed();
+  if (!(speed > 0))
+    throw InputError(
+        c.place_of("numerics.sound_speed") +
+        ": key 'numerics.sound_speed': value \"auto\" gives 0 without gravity or anything that moves at the "
+        "start: allowed: a number > 0 [m/s], about ten times the largest speed");
+  return speed;
+}
+
+// Fast walls compress the fluid in front of them.
+void warn_of_fast_walls(const std::vector<double>& speeds, const SimulationSetup& setup,
+                        std::vector<std::string>& warnings) {
+  constexpr double fast = 0.2;  // of the sound speed
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+    if (speeds[b] > fast * setup.numerics.sound_speed)
+      warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speeds[b]) +
+                         " m/s: numerics.sound_speed, " + std::to_string(setup.numerics.sound_speed) +
+                         " m/s, should be ten times that");
+}
+
+FluidSetup fluid_setup(const FluidSpec& spec) {
+  FluidSetup fluid;
+  fluid.name = spec.name;
+  fluid.rest_density = spec.density;
+  fluid.surface_tension = spec.surface_tension;
+  fluid.rheology.kind = spec.rheology;
+  for (std::size_t k = 0; k < spec.parameters.size(); ++k)
+    fluid.rheology.parameters[k] = static_cast<Real>(spec.parameters[k]);
+  return fluid;
+}
+
+// What the simulation measures, by kind, in the order of the case.
+void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& setup) {
+  const FrontSetup plane{measure.direction.axis, measure.direction.sign, measure.position};
+  switch (measure.type) {
+    case MeasureType::front:
+      return setup.fronts.push_back(plane);
+    case MeasureType::jet:
+      return setup.fronts.push_back({down(c).axis, down(c).sign, measure.bottom});
+    case MeasureType::flow_rate:
+      return setup.planes.push_back(plane);
+    case MeasureType::volume:
+      return setup.boxes.push_back({measure.min, measure.max});
+    case MeasureType::profile:
+      return setup.lines.push_back({measure.start, measure.end, measure.points});
+    case MeasureType::force:
+      setup.measure_walls = true;
+  }
+}
+
+}  // namespace
+
+BuiltCase build_setup(const Case& c) {
+  Filling filling = fill(c);
+  BuiltCase built;
+  built.resolved = c;
+  built.warnings = std::move(filling.warnings);
+  built.sound_speed_terms = sound_speed_terms(c, filling);
+  if (!(c.numerics.sound_speed > 0))
+    built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
+  const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);
+
+  SimulationSetup& setup = built.setup;
+  setup.dimensions = c.dimensions;
+  setup.spacing = c.spacing;
+  setup.support_ratio = c.support_ratio;
+  setup.gravity = c.gravity;
+  setup.body_acceleration = c.body_force;
+  for (const FluidSpec& spec : c.fluids) setup.fluids.push_back(fluid_setup(spec));
+  setup.particles = std::move(filling.fluid);
+  setup.walls = std::move(filling.walls);
+  for (const WallSpec& wall : c.walls)
+    setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.tension_limit,
+                            wall.surface, wall.motion});
+  setup.domain = c.domain;
+  setup.end_time = c.output.end_time;
+  if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;
+  setup.numerics = built.resolved.numerics;
+  if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
+  setup.limits = built.resolved.limits;
+  for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
+  warn_of_fast_walls(wall_speeds, setup, built.warnings);
+  return built;
+}
+
+}  // namespace slagflow

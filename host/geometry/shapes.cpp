@@ -1,0 +1,185 @@
+#include "host/geometry/shapes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/geometry/stl_surface.hpp"
+
+namespace slagflow {
+namespace {
+
+Vec3d unit(int axis, double sign) {
+  Vec3d v;
+  v[axis] = sign;
+  return v;
+}
+
+Vec3d projected(Vec3d p, int axis, double coordinate) {
+  p[axis] = coordinate;
+  return p;
+}
+
+class Box final : public Form {
+ public:
+  explicit Box(const BoxSpec& s) : min_(s.min), max_(s.max) {}
+
+  double distance(Vec3d p) const override {
+    double inside = -std::numeric_limits<double>::infinity(), outside = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double beyond = std::max(min_[k] - p[k], p[k] - max_[k]);
+      inside = std::max(inside, beyond);
+      if (beyond > 0) outside += beyond * beyond;
+    }
+    return inside > 0 ? std::sqrt(outside) : inside;
+  }
+
+  void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    for (int k = 0; k < 3; ++k) {
+      feet.push_back({projected(p, k, min_[k]), unit(k, -1)});
+      feet.push_back({projected(p, k, max_[k]), unit(k, 1)});
+    }
+  }
+
+  void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    for (int k = 0; k < 3; ++k) {
+      if (p[k] <= min_[k]) feet.push_back({projected(p, k, min_[k]), unit(k, 1)});
+      if (p[k] >= max_[k]) feet.push_back({projected(p, k, max_[k]), unit(k, -1)});
+    }
+  }
+
+ private:
+  Vec3d min_, max_;
+};
+
+class HalfSpace final : public Form {
+ public:
+  explicit HalfSpace(const PlaneSpec& s) : point_(s.point), normal_(s.normal * (1 / norm(s.normal))) {}
+
+  double distance(Vec3d p) const override { return dot(p - point_, normal_); }
+  void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    feet.push_back({p - distance(p) * normal_, normal_});
+  }
+  void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    feet.push_back({p - distance(p) * normal_, -normal_});
+  }
+
+ private:
+  Vec3d point_, normal_;
+};
+
+// Any unit vector across the given one.
+Vec3d across(Vec3d axis) {
+  const Vec3d helper = std::abs(axis.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d v = cross(axis, helper);
+  return v * (1 / norm(v));
+}
+
+class Cylinder final : public Form {
+ public:
+  explicit Cylinder(const CylinderSpec& s)
+      : start_(s.start),
+        length_(norm(s.end - s.start)),
+        axis_((s.end - s.start) * (1 / length_)),
+        radius_(s.radius) {}
+
+  double distance(Vec3d p) const override {
+    const Parts at = parts(p);
+    const double side = at.radius - radius_;
+    const double cap = std::max(-at.along, at.along - length_);
+    if (side > 0 && cap > 0) return std::hypot(side, cap);
+    return std::max(side, cap);
+  }
+
+  void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    const Parts at = parts(p);
+    feet.push_back({start_ + at.along * axis_ + radius_ * at.radial, at.radial});
+    feet.push_back({p - at.along * axis_, -axis_});
+    feet.push_back({p + (length_ - at.along) * axis_, axis_});
+  }
+
+  void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    const Parts at = parts(p);
+    if (at.radius >= radius_) feet.push_back({start_ + at.along * axis_ + radius_ * at.radial, -at.radial});
+    if (at.along <= 0) feet.push_back({p - at.along * axis_, axis_});
+    if (at.along >= length_) feet.push_back({p + (length_ - at.along) * axis_, -axis_});
+  }
+
+ private:
+  struct Parts {
+    double along, radius;
+    Vec3d radial;  // unit vector away from the axis
+  };
+  Parts parts(Vec3d p) const {
+    const double along = dot(p - start_, axis_);
+    const Vec3d away = p - start_ - along * axis_;
+    const double radius = norm(away);
+    return {along, radius, radius > 1e-12 * radius_ ? away * (1 / radius) : across(axis_)};
+  }
+
+  Vec3d start_;
+  double length_;
+  Vec3d axis_;
+  double radius_;
+};
+
+class Sphere final : public Form {
+ public:
+  explicit Sphere(const SphereSpec& s) : center_(s.center), radius_(s.radius) {}
+
+  double distance(Vec3d p) const override { return norm(p - center_) - radius_; }
+  void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    feet.push_back({center_ + radius_ * away(p), away(p)});
+  }
+  void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    feet.push_back({center_ + radius_ * away(p), -away(p)});
+  }
+
+ private:
+  Vec3d away(Vec3d p) const {
+    const double r = norm(p - center_);
+    return r > 1e-12 * radius_ ? (p - center_) * (1 / r) : Vec3d{0, 0, 1};
+  }
+  Vec3d center_;
+  double radius_;
+};
+
+struct MakeForm {
+  std::shared_ptr<const Form> operator()(const BoxSpec& s) const { return std::make_shared<Box>(s); }
+  std::shared_ptr<const Form> operator()(const PlaneSpec& s) const { return std::make_shared<HalfSpace>(s); }
+  std::shared_ptr<const Form> operator()(const CylinderSpec& s) const {
+    return std::make_shared<Cylinder>(s);
+  }
+  std::shared_ptr<const Form> operator()(const SphereSpec& s) const { return std::make_shared<Sphere>(s); }
+  std::shared_ptr<const Form> operator()(const StlSpec& s) const { return make_stl_form(s); }
+};
+
+}  // namespace
+
+std::shared_ptr<const Form> make_form(const ShapeSpec& spec) { return std::visit(MakeForm{}, spec.form); }
+
+void Shape::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {
+  sign_ > 0 ? form_->inner_feet(p, feet) : form_->outer_feet(p, feet);
+  form_->further_feet(p, sign_, reach, feet);
+}
+
+Solid::Solid(std::vector<Shape> shapes, const std::vector<Shape>& subtract) : shapes_(std::move(shapes)) {
+  for (const Shape& shape : subtract) limits_.push_back(shape.complement());
+}
+
+double Solid::distance(Vec3d p) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Shape& shape : shapes_) nearest = std::min(nearest, shape.distance(p));
+  for (const Shape& limit : limits_) nearest = std::max(nearest, limit.distance(p));
+  return nearest;
+}
+
+void Solid::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {
+  const auto near = [&](double distance) { return distance <= 0 && distance >= -reach; };
+  for (const Shape& shape : shapes_)
+    if (near(shape.distance(p))) shape.feet(p, reach, feet);
+  for (const Shape& limit : limits_)
+    if (near(limit.distance(p))) limit.feet(p, reach, feet);
+}
+
+}  // namespace slagflow

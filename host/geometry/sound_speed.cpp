@@ -1,0 +1,116 @@
+#include "host/geometry/sound_speed.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "host/geometry/falls.hpp"
+#include "host/geometry/squeeze.hpp"
+
+namespace slagflow {
+namespace {
+
+// Extent of the deepest body of fluid in potential, half a spacing at either end included [m^2/s^2].
+double deepest(const Case& c, const FluidParticles& fluid, const FluidBodies& bodies) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto count = static_cast<std::size_t>(bodies.count);
+  std::vector<double> low(count, infinity), high(count, -infinity);
+  for (std::size_t i = 0; i < fluid.position.size(); ++i) {
+    const double potential = -dot(c.gravity, fluid.position[i]);
+    const auto b = static_cast<std::size_t>(bodies.of[i]);
+    low[b] = std::min(low[b], potential), high[b] = std::max(high[b], potential);
+  }
+  double depth = 0;
+  for (std::size_t b = 0; b < count; ++b)
+    depth = std::max(depth, high[b] - low[b] + norm(c.gravity) * c.spacing);
+  return depth;
+}
+
+// The point of a wall's surface that one of its particles lies below.
+Vec3d surface_of(const WallParticles& walls, std::size_t i) {
+  return walls.position[i] + walls.depth[i] * walls.normal[i];
+}
+
+std::vector<double> surface_speeds(const Case& c, const WallParticles& walls) {
+  std::vector<double> speeds(c.walls.size(), 0);
+  for (std::size_t i = 0; i < walls.position.size(); ++i) {
+    double& speed = speeds[walls.body[i]];
+    speed = std::max(speed, norm(c.walls[walls.body[i]].surface.at(surface_of(walls, i))));
+  }
+  return speeds;
+}
+
+// Direction of the axis that a wall turns about, of length 1; 0 without any.
+Vec3d turning_axis(const WallMotion& motion) {
+  Vec3d axis = motion.kind == MotionKind::table ? motion.axis : motion.angular_velocity;
+  if (motion.kind == MotionKind::sine) axis = motion.angular_amplitude;
+  return norm(axis) > 0 ? (1 / norm(axis)) * axis : Vec3d{};
+}
+
+std::string rounded(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", length);
+  return text;
+}
+
+double largest(const std::vector<double>& values) {
+  return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
+}
+
+double pressure_speed(const Case& c) {
+  double speed = 0;
+  for (const RegionSpec& region : c.regions)
+    if (region.pressure == InitialPressure::uniform)
+      speed = std::max(speed, std::sqrt(2 * region.uniform_pressure /
+                                        c.fluids[static_cast<std::size_t>(region.fluid)].density));
+  return speed;
+}
+
+double tension_speed(const Case& c) {
+  double speed = 0;
+  for (const FluidSpec& fluid : c.fluids)
+    speed = std::max(speed, std::sqrt(fluid.surface_tension / (fluid.density * c.spacing)));
+  return speed;
+}
+
+}  // namespace
+
+std::vector<double> motion_speeds(const Case& c, const WallParticles& walls) {
+  std::vector<double> reach(c.walls.size(), 0), speeds(c.walls.size(), 0);
+  for (std::size_t i = 0; i < walls.position.size(); ++i) {
+    const WallMotion& motion = c.walls[walls.body[i]].motion;
+    double& r = reach[walls.body[i]];
+    r = std::max(r, norm(cross(turning_axis(motion), surface_of(walls, i) - motion.center)));
+  }
+  for (std::size_t b = 0; b < speeds.size(); ++b) {
+    const WallMotion::Speeds fastest = c.walls[b].motion.fastest();
+    speeds[b] = fastest.linear + reach[b] * fastest.angular;
+  }
+  return speeds;
+}
+
+std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& filling) {
+  const FluidBodies bodies = fluid_bodies(c, *filling.sites);
+  const double depth = deepest(c, filling.fluid, bodies), g = norm(c.gravity);
+  double start = 0;
+  for (const Vec3d& v : filling.fluid.velocity) start = std::max(start, norm(v));
+  return {{"depth", 11, std::sqrt(2 * depth), "sqrt(2 g H), H " + rounded(g > 0 ? depth / g : 0) + " m"},
+          {"impact", 5, impact_speed(c, *filling.sites, filling.fluid, bodies),
+           "on a wall or fluid that it falls on"},
+          {"walls", 10,
+           std::max(largest(motion_speeds(c, filling.walls)), largest(surface_speeds(c, filling.walls))),
+           "of the fastest wall"},
+          {"start", 10, start, "of the fastest fluid at the start"},
+          {"squeeze", 10, squeeze_speed(c, *filling.sites), "of fluid pressed out before a moving wall"},
+          {"pressure", 11, pressure_speed(c), "sqrt(2 p / rho) of a region's pressure"},
+          {"tension", 10, tension_speed(c), "sqrt(sigma / (rho spacing))"}};
+}
+
+const SoundSpeedTerm& ruling(const std::vector<SoundSpeedTerm>& terms) {
+  return *std::max_element(terms.begin(), terms.end(), [](const SoundSpeedTerm& a, const SoundSpeedTerm& b) {
+    return a.sound_speed() < b.sound_speed();
+  });
+}
+
+}  // namespace slagflow

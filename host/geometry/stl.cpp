@@ -1,0 +1,224 @@
+#include "host/geometry/stl.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+
+#include "backend/error.hpp"
+#include "host/geometry/stl_bodies.hpp"
+
+namespace slagflow {
+namespace {
+
+constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
+constexpr std::streamoff largest_file = std::streamoff{1} << 30;
+
+std::string read_bytes(const std::string& file) {
+  std::error_code failure;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  if (size < 0 || !std::filesystem::is_regular_file(file, failure))
+    throw InputError(file + ": cannot be read");
+  if (size > largest_file)
+    throw InputError(file + ": " + std::to_string(size) + " bytes: allowed: up to " +
+                     std::to_string(largest_file));
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  stream.seekg(0);
+  if (!stream.read(bytes.data(), size)) throw InputError(file + ": cannot be read");
+  return bytes;
+}
+
+void check_finite(const Triangle& triangle, std::size_t index, const std::string& file) {
+  for (const Vec3d& v : triangle)
+    if (!(std::abs(v.x) + std::abs(v.y) + std::abs(v.z) < 1e30))  // catches not-a-number as well
+      throw InputError(file + ": triangle " + std::to_string(index) +
+                       " has a coordinate that is not a number or beyond 1e30");
+}
+
+std::size_t declared_count(const std::string& bytes) {
+  if (bytes.size() < header_bytes) return std::numeric_limits<std::size_t>::max();
+  std::uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + header_bytes - sizeof count, sizeof count);
+  return count;
+}
+
+std::vector<Triangle> read_binary(const std::string& bytes, const std::string& file) {
+  std::vector<Triangle> triangles(declared_count(bytes));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    float numbers[12];  // normal and three corners
+    std::memcpy(numbers, bytes.data() + header_bytes + t * triangle_bytes, sizeof numbers);
+    for (std::size_t c = 0; c < 3; ++c)
+      triangles[t][c] = {numbers[3 * c + 3], numbers[3 * c + 4], numbers[3 * c + 5]};
+    check_finite(triangles[t], t, file);
+  }
+  return triangles;
+}
+
+// Words of an ASCII file with the line they stand on.
+class Words {
+ public:
+  Words(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+  // The next word in lower case; empty at the end of the file.
+  std::string next() {
+    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])))
+      if (text_[at_++] == '\n') ++line_;
+    std::string word;
+    while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_])))
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(text_[at_++])));
+    return word;
+  }
+  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
+  void expect(const char* wanted) {
+    const std::string word = next();
+    if (word != wanted) fail(std::string("'") + wanted + "'", word);
+  }
+  double number() {
+    const std::string word = next();
+    char* end = nullptr;
+    const double value = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end) fail("a number", word);
+    return value;
+  }
+  [[noreturn]] void fail(const std::string& wanted, const std::string& found) const {
+    throw InputError(file_ + ":" + std::to_string(line_) + ": " + wanted + " expected, found " +
+                     (found.empty() ? "the end of the file" : "'" + found.substr(0, 40) + "'"));
+  }
+
+ private:
+  const std::string& text_;
+  const std::string& file_;
+  std::size_t at_ = 0;
+  long line_ = 1;
+};
+
+Triangle read_facet(Words& words) {
+  words.expect("normal");
+  for (int k = 0; k < 3; ++k) words.next();  // often wrong in the wild; the order of the corners is used
+  words.expect("outer");
+  words.expect("loop");
+  Triangle triangle;
+  for (Vec3d& corner : triangle) {
+    words.expect("vertex");
+    for (int k = 0; k < 3; ++k) corner[k] = words.number();
+  }
+  words.expect("endloop");
+  words.expect("endfacet");
+  return triangle;
+}
+
+std::vector<Triangle> read_ascii(const std::string& text, const std::string& file) {
+  std::vector<Triangle> triangles;
+  Words words(text, file);
+  words.expect("solid");
+  words.skip_line();
+  bool open = true;
+  for (std::string word = words.next(); open || !word.empty(); word = words.next()) {
+    if (open && word == "facet") {
+      triangles.push_back(read_facet(words));
+      check_finite(triangles.back(), triangles.size() - 1, file);
+    } else if (open ? word == "endsolid" : word == "solid") {
+      open = !open;
+      words.skip_line();
+    } else {
+      words.fail(open ? "'facet' or 'endsolid'" : "'solid'", word);
+    }
+  }
+  return triangles;
+}
+
+// Gives corners at the same place the same number. Places closer than a millionth of the surface's extent
+// count as one, since writers round.
+std::vector<Corners> weld(const std::vector<Triangle>& triangles) {
+  double largest = 0;
+  const Vec3d base = triangles.front()[0];
+  for (const Triangle& t : triangles)
+    for (const Vec3d& v : t)
+      for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(v[k] - base[k]));
+  const double cell = largest > 0 ? 1e-6 * largest : 1;
+  std::map<std::array<long, 3>, std::size_t> numbers;
+  std::vector<Corners> welded;
+  for (const Triangle& t : triangles) {
+    Corners corners;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3d v = (t[c] - base) * (1 / cell);
+      corners[c] = numbers
+                       .emplace(std::array<long, 3>{std::lround(v.x), std::lround(v.y), std::lround(v.z)},
+                                numbers.size())
+                       .first->second;
+    }
+    welded.push_back(corners);
+  }
+  return welded;
+}
+
+// Every edge must be run through as often one way as the other.
+void check_closed(const std::vector<Corners>& triangles, const std::string& name) {
+  struct Uses {
+    long forward = 0, backward = 0;
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Uses> edges;
+  for (const Corners& t : triangles)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t a = t[c], b = t[(c + 1) % 3];
+      Uses& uses = edges[std::minmax(a, b)];
+      ++(a < b ? uses.forward : uses.backward);
+    }
+  std::size_t open = 0, against = 0;
+  for (const auto& [edge, uses] : edges) {
+    if ((uses.forward + uses.backward) % 2 != 0)
+      ++open;
+    else if (uses.forward != uses.backward)
+      ++against;
+  }
+  if (open > 0)
+    throw InputError(name + ": the surface is not closed: " + std::to_string(open) +
+                     " open edges: allowed: 0, every edge shared by two triangles");
+  if (against > 0)
+    throw InputError(name + ": the triangles do not agree which side is outside, at " +
+                     std::to_string(against) +
+                     " edges: allowed: corners in the same sense all over the surface");
+}
+
+}  // namespace
+
+std::vector<Triangle> read_stl(const std::string& file) {
+  const std::string bytes = read_bytes(file);
+  const std::size_t count = declared_count(bytes);
+  const bool binary = bytes.size() >= header_bytes && bytes.size() - header_bytes == count * triangle_bytes;
+  const auto first = bytes.find_first_not_of(" \t\r\n");
+  const bool ascii = !binary && first != std::string::npos && bytes.compare(first, 5, "solid") == 0;
+  if (!binary && !ascii)
+    throw InputError(file + ": " + std::to_string(bytes.size()) + " bytes, " +
+                     (bytes.size() < header_bytes
+                          ? "too short for an STL file"
+                          : "but its header announces " + std::to_string(count) + " triangles = " +
+                                std::to_string(header_bytes + count * triangle_bytes) + " bytes"));
+  std::vector<Triangle> triangles = binary ? read_binary(bytes, file) : read_ascii(bytes, file);
+  if (triangles.empty()) throw InputError(file + ": holds no triangle");
+  return triangles;
+}
+
+std::vector<Triangle> closed_surface(const std::vector<Triangle>& triangles, const std::string& name) {
+  const std::vector<Corners> welded = weld(triangles);
+  std::vector<Triangle> surface;
+  std::vector<Corners> corners;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const Corners& c = welded[t];
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+    surface.push_back(triangles[t]);
+    corners.push_back(c);
+  }
+  if (surface.empty()) throw InputError(name + ": no triangle has an area");
+  check_closed(corners, name);
+  turn_bodies_outward(surface, corners, name);
+  return surface;
+}
+
+}  // namespace slagflow

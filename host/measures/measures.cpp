@@ -1,0 +1,106 @@
+#include "host/measures/measures.hpp"
+
+#include <algorithm>
+
+#include "backend/error.hpp"
+#include "host/measures/measure_force.hpp"
+#include "host/measures/measure_front.hpp"
+#include "host/measures/measure_volume.hpp"
+#include "host/measures/profiles.hpp"
+
+namespace slagflow {
+namespace {
+
+// The setup lists what is measured by kind, in the order of the case; this counts along.
+struct Counts {
+  std::size_t fronts = 0, planes = 0, boxes = 0, lines = 0;
+};
+
+std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationSetup& setup, Counts& next) {
+  const double particles = static_cast<double>(std::max<std::size_t>(setup.particles.position.size(), 1));
+  const double dx = setup.spacing, volume = setup.dimensions == 2 ? dx * dx : dx * dx * dx;
+  switch (spec.type) {
+    case MeasureType::jet: {
+      const std::size_t index = next.fronts++;
+      return std::make_unique<JetMeasure>(spec, setup.fronts.at(index), index, particles, dx);
+    }
+    case MeasureType::flow_rate: {
+      const std::size_t index = next.planes++;
+      const FrontSetup& plane = setup.planes.at(index);
+      const bool periodic = setup.domain.periodic[static_cast<std::size_t>(plane.axis)];
+      return std::make_unique<FlowMeasure>(
+          spec, FlowMeasure::Geometry{plane, index, volume, setup.dimensions, periodic});
+    }
+    case MeasureType::volume:
+      return std::make_unique<VolumeMeasure>(spec, next.boxes++, volume, setup.dimensions);
+    case MeasureType::force: {
+      const auto body = static_cast<std::size_t>(spec.wall);
+      return std::make_unique<ForceMeasure>(spec, setup.bodies.at(body).name, setup.dimensions);
+    }
+    case MeasureType::profile:
+      return std::make_unique<ProfileMeasure>(spec, setup.lines.at(next.lines++));
+    default: {
+      const std::size_t index = next.fronts++;
+      return std::make_unique<FrontMeasure>(spec, setup.fronts.at(index), index, particles);
+    }
+  }
+}
+
+}  // namespace
+
+Measures::Measures(const Case& c, const SimulationSetup& setup) {
+  Counts next;
+  for (const MeasureSpec& spec : c.measures) measures_.push_back(make_measure(spec, setup, next));
+}
+
+std::vector<std::string> Measures::columns() const {
+  std::vector<std::string> names;
+  for (const auto& m : measures_)
+    for (const std::string& ending : m->columns()) names.push_back(m->name() + "_" + ending);
+  return names;
+}
+
+std::vector<double> Measures::update(double time, const Totals& totals, const ReadSnapshot& read) {
+  std::vector<double> values;
+  for (const auto& m : measures_)
+    for (const double value : m->update({time, totals, read})) values.push_back(value);
+  return values;
+}
+
+std::vector<double> Measures::state() const {
+  std::vector<double> state;
+  for (const auto& m : measures_)
+    for (const double value : m->state()) state.push_back(value);
+  return state;
+}
+
+void Measures::restore(const std::vector<double>& state) {
+  const std::size_t wanted = this->state().size();
+  if (state.size() != wanted)
+    throw Error("checkpoint: " + std::to_string(state.size()) + " numbers of measures, the case's have " +
+                std::to_string(wanted));
+  const double* next = state.data();
+  for (const auto& m : measures_) {
+    m->restore(next);
+    next += m->state().size();
+  }
+}
+
+bool Measures::arrived(const std::string& name) const {
+  return std::any_of(measures_.begin(), measures_.end(),
+                     [&](const auto& m) { return m->name() == name && m->arrived(); });
+}
+
+Json Measures::summary() const {
+  Json all = Json::object();
+  for (const auto& m : measures_) all.set(m->name(), m->summary());
+  return all;
+}
+
+std::vector<std::string> Measures::lines() const {
+  std::vector<std::string> lines;
+  for (const auto& m : measures_) lines.push_back(m->name() + " (" + m->type() + "): " + m->line());
+  return lines;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,39 @@
+// Where a result comes from: goes into every file that a run writes.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host/case/case.hpp"
+
+namespace slagflow {
+
+struct Provenance {
+  std::string version, commit, compiler, build_type;
+  std::string backend;    // "cpu" or "cuda"
+  std::string device;     // processor or GPU
+  int threads = 1;        // CPU build
+  std::string precision;  // "float" or "double"
+  std::string case_name;
+  std::string case_text;    // the resolved case, TOML
+  std::string started_utc;  // ISO 8601
+  std::string ended_utc;    // the same; empty while the run is on
+
+  // Name and value of each, as attributes of a file.
+  std::vector<std::pair<std::string, std::string>> attributes() const;
+
+  // Of a resumed run: takes over what is known of its start. Where the program or the device has changed,
+  // both are named.
+  void begin_with(const std::vector<std::pair<std::string, std::string>>& attributes_of_start);
+};
+
+// The present time, ISO 8601.
+std::string now_utc();
+
+// The build and the device, without a case.
+Provenance build_provenance();
+// The build, the device, a resolved case and the present time.
+Provenance run_provenance(const Case& resolved);
+
+}  // namespace slagflow

@@ -1,0 +1,160 @@
+#include "host/output/snapshot_writer.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "host/output/checkpoint_store.hpp"
+
+namespace slagflow {
+namespace {
+
+std::vector<ArrayInfo> particle_arrays() {
+  return {{"Velocity", "m/s", "velocity", ArrayType::float32, 3},
+          {"Pressure", "Pa", "pressure", ArrayType::float32, 1},
+          {"Density", "kg/m^3", "density", ArrayType::float32, 1},
+          {"Viscosity", "Pa s", "dynamic viscosity", ArrayType::float32, 1},
+          {"ShearRate", "1/s", "shear rate", ArrayType::float32, 1},
+          {"ShearStress", "Pa", "magnitude of the viscous stress", ArrayType::float32, 1},
+          {"Yielded", "1", "1 where the stress exceeds the yield stress", ArrayType::uint8, 1},
+          {"Fluid", "1", "index of the fluid, in the order of the case", ArrayType::uint8, 1},
+          {"ParticleId", "1", "number of the particle, constant through the run", ArrayType::int64, 1}};
+}
+
+std::vector<ArrayInfo> wall_arrays() {
+  return {{"Pressure", "Pa", "pressure", ArrayType::float32, 1},
+          {"Wall", "1", "index of the wall, in the order of the case", ArrayType::uint8, 1}};
+}
+
+void to_float(const std::vector<Vec3d>& from, std::vector<Vector3<float>>& to) {
+  to.resize(from.size());
+  std::transform(from.begin(), from.end(), to.begin(), [](Vec3d p) {
+    return Vector3<float>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  });
+}
+
+}  // namespace
+
+SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes)
+    : particles_(folder + "/particles.vtkhdf", particle_arrays()) {
+  if (sizes.walls > 0) walls_.emplace(folder + "/walls.vtkhdf", wall_arrays());
+}
+
+SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes,
+                               const VtkhdfWriter::Attributes& attributes)
+    : SnapshotWriter(folder, sizes) {
+  particles_.create(attributes, sizes.particles);
+  if (walls_) walls_->create(attributes, sizes.walls);
+  thread_ = std::thread([this] { work(); });
+}
+
+SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes, PresentSnapshots present)
+    : SnapshotWriter(folder, sizes) {
+  particles_.truncate(present.count);
+  if (walls_) walls_->truncate(present.count);
+  walls_begun_ = present.count > 0;
+  written_ = present.count;
+  thread_ = std::thread([this] { work(); });
+}
+
+SnapshotWriter::~SnapshotWriter() { stop(); }
+
+void SnapshotWriter::write(const std::function<void(Snapshot&)>& fill) {
+  Snapshot* buffer = nullptr;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return !free_.empty() || failure_; });
+    rethrow();
+    buffer = free_.front();
+    free_.pop_front();
+  }
+  try {
+    fill(*buffer);
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    free_.push_back(buffer);
+    throw;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  full_.push_back(buffer);
+  changed_.notify_all();
+}
+
+std::int64_t SnapshotWriter::finish_queue() {
+  std::int64_t written = 0;
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return free_.size() == buffers_.size(); });
+    rethrow();
+    written = written_;
+  }
+  flush_to_disk(particles_.path());
+  if (walls_) flush_to_disk(walls_->path());
+  return written;
+}
+
+void SnapshotWriter::close() {
+  stop();
+  rethrow();
+}
+
+void SnapshotWriter::describe(const VtkhdfWriter::Attributes& attributes) const {
+  particles_.describe(attributes);
+  if (walls_) walls_->describe(attributes);
+}
+
+void SnapshotWriter::stop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+    changed_.notify_all();
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+// A failure is told once.
+void SnapshotWriter::rethrow() {
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+}
+
+void SnapshotWriter::work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return !full_.empty() || stopping_; });
+    if (full_.empty()) return;
+    Snapshot* const buffer = full_.front();
+    full_.pop_front();
+    lock.unlock();
+    std::exception_ptr failure;
+    try {
+      if (buffer->arriving.under_way()) buffer->arriving.finish(buffer->particles, buffer->walls);
+      append(*buffer);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    buffer->particles = {}, buffer->walls = {};  // between snapshots their memory is free for a checkpoint
+    lock.lock();
+    if (failure)
+      failure_ = failure;
+    else
+      ++written_;
+    free_.push_back(buffer);
+    changed_.notify_all();
+  }
+}
+
+void SnapshotWriter::append(const Snapshot& snapshot) {
+  const FluidSnapshot& p = snapshot.particles;
+  to_float(p.position, positions_);
+  particles_.append({p.time,
+                     positions_,
+                     {p.velocity, p.pressure, p.density, p.viscosity, p.shear_rate, p.shear_stress, p.yielded,
+                      p.fluid, p.id}});
+  if (!walls_) return;
+  const WallSnapshot& w = snapshot.walls;
+  to_float(w.position, positions_);
+  const PointStep step{w.time, positions_, {w.pressure, w.body}};
+  w.moves || !walls_begun_ ? walls_->append(step) : walls_->append_at_same_points(step);
+  walls_begun_ = true;
+}
+
+}  // namespace slagflow

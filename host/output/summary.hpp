@@ -1,0 +1,30 @@
+// The summary of a run, for summary.json.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/case/case.hpp"
+#include "host/output/provenance.hpp"
+#include "host/output/summary_json.hpp"
+#include "simulation/simulation.hpp"
+
+namespace slagflow {
+
+struct RunCounts {
+  std::int64_t particles_start = 0;  // fluid
+  std::int64_t walls = 0;
+  std::int64_t particle_steps = 0;  // fluid particles, summed over the steps
+  double wall_time = 0;             // [s] of the steps and their output
+  double setup_time = 0;            // [s] before the first step
+  double max_density_error = 0;     // largest of the run
+};
+
+// What is known before the first step.
+Json summary_of_case(const Case& resolved, const Provenance& provenance, const RunCounts& counts);
+
+// Adds what the simulation and its run led to.
+void add_results(Json& summary, Simulation& simulation, const RunCounts& counts);
+
+}  // namespace slagflow

@@ -1,0 +1,177 @@
+#include "host/program/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "backend/error.hpp"
+#include "host/case/case.hpp"
+#include "host/case/case_table.hpp"
+#include "host/geometry/setup_builder.hpp"
+#include "host/output/provenance.hpp"
+#include "host/program/info.hpp"
+#include "host/rheometry/rheometry.hpp"
+#include "host/run/check.hpp"
+#include "host/run/run.hpp"
+
+namespace slagflow {
+namespace {
+
+struct Arguments {
+  std::string file;
+  std::vector<std::string> overrides;
+  RunOptions run;
+  RheometryOptions rheometry;
+};
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+std::string version_text() {
+  const Provenance p = build_provenance();
+  return "slagflow " + p.version + "\ncommit    " + p.commit + "\nbuild     " + p.backend + ", " +
+         p.precision + ", " + p.compiler + ", " + p.build_type + "\ndevice    " + p.device + " (" +
+         std::to_string(p.threads) + " threads)";
+}
+
+int report(const RunOutcome& outcome) {
+  print("results in " + outcome.folder + "\n");
+  for (const std::string& line : outcome.results) print(line + "\n");
+  return outcome.exit_code();
+}
+
+// As the keys of a case.
+const CLI::Validator above_zero(
+    [](const std::string& text) {
+      double value = 0;
+      if (CLI::detail::lexical_cast(text, value) && above(0, "").holds(value)) return std::string();
+      return "value " + text + ": allowed: " + above(0, "").text();
+    },
+    "");
+
+int run(const Arguments& arguments) {
+  return report(run_case(load_case(arguments.file, arguments.overrides), arguments.run));
+}
+
+int resume(const Arguments& arguments) { return report(resume_run(arguments.run)); }
+
+int check(const Arguments& arguments) {
+  const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
+  print(arguments.file + ": valid\n" + to_text(check_case(built)));
+  return 0;
+}
+
+int info(const Arguments& arguments) {
+  print(describe_file(arguments.file));
+  return 0;
+}
+
+int rheometry(const Arguments& arguments) {
+  run_rheometry(arguments.rheometry);
+  return 0;
+}
+
+void add_case(CLI::App* command, Arguments& arguments) {
+  command->add_option("case", arguments.file, "case file")->required()->type_name("CASE.toml");
+  command->add_option("--set", arguments.overrides, "set a key of the case, as fluid.slag.yield_stress=5")
+      ->allow_extra_args(false)
+      ->type_name("KEY=VALUE");
+}
+
+// Those of `run` and `resume`.
+void add_loop_options(CLI::App* command, RunOptions& run) {
+  command->add_option("--threads", run.threads, "threads of the CPU build")->check(CLI::Range(1, 4096));
+  command->add_option("--until", run.until, "end at this simulated time [s]")->check(above_zero);
+  command->add_flag_callback(
+      "--quiet", [&run] { run.verbosity = Verbosity::quiet; }, "only warnings and errors on stderr");
+  command->add_flag("--time-parts", run.time_parts,
+                    "CUDA build: time each part of a step, which makes it slower");
+}
+
+void add_run_options(CLI::App* command, RunOptions& run) {
+  command->add_option("-o,--output", run.folder, "folder of the run (default: runs/<case name>)")
+      ->type_name("DIR");
+  command->add_flag_callback(
+      "--overwrite", [&run] { run.overwrite = Overwrite::replace; }, "replace an earlier run in the folder");
+}
+
+CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
+  CLI::App* const command = app.add_subcommand("rheometry", "fit rheologies to a viscometer's readings");
+  command->add_option("file", options.file, "readings")->required()->type_name("FILE.csv");
+  command
+      ->add_option_function<std::string>(
+          "--model",
+          [&options](const std::string& name) {
+            for (const FlowModel model : flow_models)
+              if (name == name_of(model)) options.model = model;
+          },
+          "newtonian, bingham, herschel-bulkley, or auto: the best by AICc")
+      ->check(CLI::IsMember({"auto", "newtonian", "bingham", "herschel-bulkley"}));
+  command->add_option("-o,--output", options.output, "the fluid's table; the curves go beside it")
+      ->type_name("X.toml");
+  SampleFacts& facts = options.facts;
+  for (const auto& [name, fact, what] :
+       {std::tuple{"--bob-radius", &facts.bob_radius, "of concentric cylinders [m]"},
+        std::tuple{"--cup-radius", &facts.cup_radius, "of concentric cylinders [m]"},
+        std::tuple{"--height", &facts.height, "of the wetted bob [m]"},
+        std::tuple{"--full-scale-torque", &facts.full_scale_torque, "where torque is in per cent [N m]"},
+        std::tuple{"--density", &facts.density, "of the fluid [kg/m^3]"}})
+    command->add_option(name, *fact, what)->check(above_zero);
+  command->add_option("--name", facts.name, "of the fluid (default: the name of the file)");
+  command->add_option("--growth-exponent", options.growth_exponent, "m of the fluid's table [s]")
+      ->check(above_zero);
+  command->add_flag_callback(
+      "--relative-errors", [&options] { options.errors = ErrorModel::relative; },
+      "the readings are uncertain by the same share, not by the same stress");
+  return command;
+}
+
+int dispatch(int argc, const char* const* argv) {
+  CLI::App app("Smoothed-particle hydrodynamics of slag with a yield stress and a free surface.", "slagflow");
+  Arguments arguments;
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version_text, "version, commit, build and device");
+  CLI::App* const run_command = app.add_subcommand("run", "run a case");
+  add_case(run_command, arguments);
+  add_run_options(run_command, arguments.run);
+  add_loop_options(run_command, arguments.run);
+  CLI::App* const resume_command = app.add_subcommand("resume", "go on with a run from its checkpoint");
+  resume_command->add_option("folder", arguments.run.folder, "folder of the run")
+      ->required()
+      ->type_name("DIR");
+  add_loop_options(resume_command, arguments.run);
+  CLI::App* const check_command = app.add_subcommand("check", "validate a case and estimate its cost");
+  add_case(check_command, arguments);
+  CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
+  info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
+  CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  if (run_command->parsed()) return run(arguments);
+  if (resume_command->parsed()) return resume(arguments);
+  if (rheometry_command->parsed()) return rheometry(arguments);
+  return check_command->parsed() ? check(arguments) : info(arguments);
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory\n");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+  }
+  return 1;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,237 @@
+#include "host/rheometry/rheometry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "backend/error.hpp"
+#include "host/case/case_sections.hpp"
+#include "host/case/toml_reader.hpp"
+#include "host/output/provenance.hpp"
+#include "host/run/run_folder.hpp"
+
+namespace slagflow {
+namespace {
+
+constexpr double close_call = 2;       // AICc: a smaller difference does not tell two models apart
+constexpr double most_flow_index = 2;  // that a case file allows
+
+// In the first line of what is written.
+constexpr const char *table_mark = " by slagflow ", *curves_mark = ",measured_Pa";
+
+template <class... Arguments>
+std::string print(const char* pattern, Arguments... arguments) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), pattern, arguments...);
+  return text.data();
+}
+
+// Six significant digits are more than any viscometer has.
+double rounded(double value) { return std::strtod(print("%.6g", value).c_str(), nullptr); }
+
+struct NamedEstimate {
+  const char* key;
+  const char* unit;
+  Estimate estimate;
+};
+
+std::vector<NamedEstimate> estimates(const FlowFit& fit) {
+  switch (fit.model) {
+    case FlowModel::newtonian:
+      return {{"dynamic_viscosity", "Pa s", fit.consistency}};
+    case FlowModel::bingham:
+      return {{"plastic_viscosity", "Pa s", fit.consistency}, {"yield_stress", "Pa", fit.yield_stress}};
+    default:
+      return {{"consistency", "Pa s^n", fit.consistency},
+              {"flow_index", "", fit.flow_index},
+              {"yield_stress", "Pa", fit.yield_stress}};
+  }
+}
+
+std::string interval(const NamedEstimate& e) {
+  const std::string unit = *e.unit ? std::string(" ") + e.unit : "";
+  if (e.estimate.low == e.estimate.high)
+    return print("%s %.5g%s (held)", e.key, e.estimate.value, unit.c_str());
+  return print("%s %.5g%s (%.5g to %.5g)", e.key, e.estimate.value, unit.c_str(), e.estimate.low,
+               e.estimate.high);
+}
+
+std::string fluid_name(const RheometryResult& result, const std::string& file) {
+  if (result.measured.facts.name) return *result.measured.facts.name;
+  std::string name = std::filesystem::path(file).stem().string();
+  for (char& c : name)
+    if (!is_plain_name(std::string(1, c)) && c != '-') c = '_';
+  if (!is_plain_name(name)) name = "fluid_" + name;
+  std::replace(name.begin(), name.end(), '.', '_');
+  return name;
+}
+
+// Index of the wanted model, else of the best one. A wanted model that is missing did not converge: trying
+// again says so.
+std::size_t choose(const RheometryResult& result, const RheometryOptions& options) {
+  if (!options.model) return 0;
+  const auto is_wanted = [&](const FlowFit& fit) { return fit.model == *options.model; };
+  const auto found = std::find_if(result.fits.begin(), result.fits.end(), is_wanted);
+  if (found == result.fits.end()) fit(*options.model, result.measured.curve, options.errors);
+  return static_cast<std::size_t>(found - result.fits.begin());
+}
+
+// What an earlier fit left may be replaced, other files not. `mark` is in the first line of such a file.
+void require_own(const std::string& path, const std::string& mark) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line) || line.find(mark) != std::string::npos) return;
+  throw InputError("output " + path + ": is there and not by slagflow rheometry: allowed: another name");
+}
+
+// Before anything is written. Returns the path of the curves.
+std::string require_output(const RheometryOptions& options) {
+  std::filesystem::path path(options.output);
+  if (path.extension() != ".toml")
+    throw InputError("output " + options.output + ": allowed: a name that ends in .toml");
+  std::string curves = path.replace_extension(".csv").string();
+  std::error_code ignored;
+  if (std::filesystem::equivalent(curves, options.file, ignored))
+    throw InputError("output " + options.output + ": its curves would replace the measurements in " + curves +
+                     ": allowed: another name");
+  require_own(options.output, table_mark);
+  require_own(curves, curves_mark);
+  return curves;
+}
+
+void add_fit_warnings(RheometryResult& result, const RheometryOptions& options) {
+  const FlowFit& best = result.best();
+  std::vector<std::string>& warnings = result.warnings;
+  if (best.at_zero_yield)
+    warnings.push_back(options.file + ": the best yield stress is not above 0: it is held at 0");
+  else if (best.model != FlowModel::newtonian && best.yield_stress.low <= 0)
+    warnings.push_back(options.file + ": " +
+                       print("the interval of the yield stress, %.4g to %.4g Pa, reaches 0",
+                             best.yield_stress.low, best.yield_stress.high));
+  for (const FlowModel model : flow_models)
+    if (!options.model && result.measured.curve.rate.size() < static_cast<std::size_t>(points_needed(model)))
+      warnings.push_back(options.file + ": " +
+                         print("%d points are too few to try the %s model: allowed: at least %d",
+                               static_cast<int>(result.measured.curve.rate.size()), name_of(model),
+                               points_needed(model)));
+  if (!options.model && result.fits.size() > 1 && result.fits[1].aicc - result.fits[0].aicc < close_call)
+    warnings.push_back(options.file + ": " +
+                       print("the %s and %s models fit almost alike: AICc differs by %.2g",
+                             name_of(result.fits[0].model), name_of(result.fits[1].model),
+                             result.fits[1].aicc - result.fits[0].aicc));
+}
+
+// Rates of the curves: as many for each factor of ten, a little beyond the measured ones.
+std::vector<double> curve_rates(const std::vector<double>& measured) {
+  constexpr int count = 80;
+  const double low = measured.front() / 1.3, high = measured.back() * 1.1;
+  std::vector<double> rates;
+  for (int k = 0; k < count; ++k) rates.push_back(low * std::pow(high / low, k / (count - 1.0)));
+  return rates;
+}
+
+}  // namespace
+
+RheometryResult analyse(const RheometryOptions& options) {
+  RheometryResult result;
+  result.measured = read_measurements(options.file, options.facts);
+  result.warnings = result.measured.warnings;
+  const FlowCurve& curve = result.measured.curve;
+  const std::size_t count = curve.rate.size();
+  const auto needed = static_cast<std::size_t>(points_needed(options.model.value_or(FlowModel::bingham)));
+  if (count < needed)
+    throw InputError(
+        options.file + ": " + std::to_string(count) + " points are too few " +
+        (options.model ? std::string("for the ") + name_of(*options.model) + " model" : "to choose a model") +
+        ": allowed: at least " + std::to_string(needed));
+  result.fits = fit_all(curve, options.errors);
+  result.chosen = choose(result, options);
+  if (result.best().flow_index.value > most_flow_index)
+    throw InputError(options.file + ": the flow index is " + print("%.3g", result.best().flow_index.value) +
+                     ": allowed: up to 2; the stress rises faster than that of any fluid that this program "
+                     "knows: turbulence or vortices at high speed?");
+  add_fit_warnings(result, options);
+  return result;
+}
+
+std::string to_text(const RheometryResult& result) {
+  const FlowCurve& curve = result.measured.curve;
+  std::string text = std::to_string(curve.rate.size()) + " points, ";
+  const char* const unit = curve.cylinders ? "rad/s" : "1/s";
+  text += print("%.4g to %.4g %s, %.4g to %.4g Pa", curve.rate.front(), curve.rate.back(), unit,
+                curve.stress.front(), curve.stress.back());
+  if (const auto& c = curve.cylinders)
+    text += print(" at the bob of %.4g mm in a cup of %.4g mm, exact for the gap", 1e3 * c->bob_radius,
+                  1e3 * c->cup_radius);
+  text += "\nfits with 95 % intervals, best first:\n";
+  for (const FlowFit& fit : result.fits) {
+    text += print("%c %-17s AICc %+.2f  ", &fit == &result.best() ? '*' : ' ', name_of(fit.model),
+                  fit.aicc - result.fits.front().aicc);
+    std::string values;
+    for (const NamedEstimate& e : estimates(fit)) values += (values.empty() ? "" : ", ") + interval(e);
+    text += values + "\n";
+  }
+  return text;
+}
+
+std::string to_fluid_table(const RheometryResult& result, const RheometryOptions& options) {
+  const FlowFit& best = result.best();
+  const Provenance here = build_provenance();
+  std::string text = "# " + std::filesystem::path(options.file).filename().string() + table_mark +
+                     here.version + " (" + here.commit +
+                     "): " + std::to_string(result.measured.curve.rate.size()) + " points, " +
+                     (options.model ? "model as asked for" : "model chosen by AICc") + ".\n";
+  text += "# 95 % intervals:";
+  for (const NamedEstimate& e : estimates(best)) text += " " + interval(e) + ";";
+  text.back() = '\n';
+  text += "[fluid." + fluid_name(result, options.file) + "]\n";
+  const auto& density = result.measured.facts.density;
+  text += density ? "density = " + show(rounded(*density)) + "\n"
+                  : "# density = ...  # [kg/m^3] must be added: the measurements do not give it\n";
+  text += std::string("rheology = \"") + name_of(best.model) + "\"\n";
+  for (const NamedEstimate& e : estimates(best))
+    text += std::string(e.key) + " = " + show(rounded(e.estimate.value)) + "\n";
+  if (best.model != FlowModel::newtonian) text += "growth_exponent = " + show(options.growth_exponent) + "\n";
+  return text;
+}
+
+std::string to_curves(const RheometryResult& result) {
+  const FlowCurve& curve = result.measured.curve;
+  std::string text = (curve.cylinders ? "rotation_rad/s" : "shear_rate_1/s") + std::string(curves_mark);
+  for (const FlowFit& fit : result.fits) text += std::string(",") + name_of(fit.model) + "_Pa";
+  text += "\n";
+  const auto add = [&](const std::vector<double>& rates, const std::vector<double>& measured) {
+    std::vector<std::vector<double>> models;
+    for (const FlowFit& fit : result.fits)
+      models.push_back(stresses(fit.parameters(), rates, curve.cylinders));
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      text += print("%.9g,", rates[i]) + (measured.empty() ? "" : print("%.9g", measured[i]));
+      for (const std::vector<double>& model : models) text += print(",%.9g", model[i]);
+      text += "\n";
+    }
+  };
+  add(curve.rate, curve.stress);
+  add(curve_rates(curve.rate), {});
+  return text;
+}
+
+void run_rheometry(const RheometryOptions& options) {
+  const std::string curves = options.output.empty() ? "" : require_output(options);
+  const RheometryResult result = analyse(options);
+  const std::string table = to_fluid_table(result, options);
+  std::vector<std::string> warnings = result.warnings;
+  if (!result.measured.facts.density)
+    warnings.push_back(options.file +
+                       ": no density, which the fluid table needs: a line `# density_kg/m3 = ...` or the "
+                       "option --density");
+  for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+  std::fputs((to_text(result) + "\n" + table).c_str(), stdout);
+  if (options.output.empty()) return;
+  write_file(options.output, table);
+  write_file(curves, to_curves(result));
+}
+
+}  // namespace slagflow

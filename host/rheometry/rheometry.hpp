@@ -1,0 +1,46 @@
+// The command `rheometry`: from a viscometer's readings to the [fluid] table of a case.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/rheometry/rheometry_data.hpp"
+
+namespace slagflow {
+
+struct RheometryOptions {
+  std::string file;
+  std::optional<FlowModel> model;  // else the best by AICc
+  std::string output;              // TOML file; empty: none
+  SampleFacts facts;               // given as options
+  ErrorModel errors = ErrorModel::absolute;
+  double growth_exponent = 1000;  // [s]
+};
+
+struct RheometryResult {
+  Measurements measured;
+  std::vector<FlowFit> fits;  // best first by AICc
+  std::size_t chosen = 0;     // index into fits
+  std::vector<std::string> warnings;
+
+  const FlowFit& best() const { return fits[chosen]; }
+};
+
+// Throws InputError on bad measurements or a model that does not fit them.
+RheometryResult analyse(const RheometryOptions&);
+
+// For people: the fits with their intervals, and which was chosen.
+std::string to_text(const RheometryResult&);
+
+// The [fluid.NAME] table of the chosen fit, ready for a case file when the density is known.
+std::string to_fluid_table(const RheometryResult&, const RheometryOptions&);
+
+// Measurements and curves as CSV, for the picture: columns x (shear rate or rotation), measured, one for each
+// model. Rows of curves have no measured stress.
+std::string to_curves(const RheometryResult&);
+
+// Runs the command: results to stdout, warnings to stderr. With an output X.toml the curves go to X.csv.
+void run_rheometry(const RheometryOptions&);
+
+}  // namespace slagflow

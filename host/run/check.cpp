@@ -1,0 +1,242 @@
+#include "host/run/check.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "backend/error.hpp"
+#include "fluid/constants.hpp"
+#include "host/case/toml_reader.hpp"
+#include "host/geometry/geometry.hpp"
+#include "host/measures/losses.hpp"
+
+namespace slagflow {
+namespace {
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+// Extent of the fluid along a unit vector, half a spacing at either end included.
+double extent(const SimulationSetup& setup, Vec3d along) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3d& p : setup.particles.position) {
+    low = std::min(low, dot(p, along));
+    high = std::max(high, dot(p, along));
+  }
+  return high - low + setup.spacing;
+}
+
+// Depth along gravity and the smaller width across it.
+void add_lengths(CaseCheck& check, const SimulationSetup& setup) {
+  const double g = norm(setup.gravity);
+  check.width = std::numeric_limits<double>::infinity();
+  int down = -1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (g > 0 && (down < 0 || std::abs(setup.gravity[axis]) > std::abs(setup.gravity[down]))) down = axis;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == down || (axis == 1 && setup.dimensions == 2)) continue;
+    Vec3d along;
+    along[axis] = 1;
+    check.width = std::min(check.width, extent(setup, along));
+  }
+  check.depth = g > 0 ? extent(setup, setup.gravity * (1 / g)) : check.width;
+}
+
+// The fall through the deepest body of fluid, where it is known, and not from one to another.
+void add_speed(CaseCheck& check, const BuiltCase& built) {
+  double fastest = 0;
+  for (const Vec3d& v : built.setup.particles.velocity) fastest = std::max(fastest, norm(v));
+  const double fall = built.sound_speed_terms.empty() ? std::sqrt(2 * norm(built.setup.gravity) * check.depth)
+                                                      : built.sound_speed_terms.front().speed;
+  check.speed = std::max(fall, fastest);
+  check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start";
+}
+
+// The parameter that plays a role; 0 where there is none.
+double parameter_of(const Rheology& rheology, ParameterRole role) {
+  const RheologyInfo& info = rheology.info();
+  for (int k = 0; k < info.parameter_count; ++k) {
+    if (info.parameters[k].role == role) return rheology.parameters[k];
+  }
+  return 0;
+}
+
+void add_numbers(CaseCheck& check, const SimulationSetup& setup) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const FluidSetup& fluid : setup.fluids) {
+    const double eta = parameter_of(fluid.rheology, ParameterRole::viscosity);
+    const double yield_stress = parameter_of(fluid.rheology, ParameterRole::yield_stress);
+    const double g = norm(setup.gravity);
+    FluidNumbers numbers;
+    numbers.name = fluid.name;
+    numbers.reynolds = check.speed > 0 ? fluid.rest_density * check.speed * check.width / eta : unknown;
+    numbers.bingham = check.speed > 0 ? yield_stress * check.width / (eta * check.speed) : unknown;
+    numbers.dam = g > 0 ? fluid.rest_density * check.width * std::sqrt(g * check.depth) / eta : unknown;
+    check.fluids.push_back(numbers);
+  }
+}
+
+struct TimeStep {
+  double length = 0;  // [s]
+  std::string reason;
+
+  void limit(double to, const char* why) {
+    if (to < length) length = to, reason = why;
+  }
+};
+
+TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
+  const NumericsSetup& numerics = setup.numerics;
+  TimeStep step{numerics.courant * (setup.support_ratio * setup.spacing / 2) / sound_speed,
+                "courant (h/2) / sound speed"};
+  step.limit(capillary_time_step(setup), "courant sqrt(rho spacing^3 / (2 pi surface tension))");
+  if (setup.end_time > 0) step.limit(0.5 * setup.end_time, "half of output.end_time");
+  if (numerics.max_time_step > 0) step.limit(numerics.max_time_step, "numerics.max_time_step");
+  if (numerics.viscous_step == ViscousStepping::explicit_step)
+    for (const FluidSetup& fluid : setup.fluids)
+      step.limit(numerics.diffusion_number * fluid.rest_density * setup.spacing * setup.spacing /
+                     static_cast<double>(viscosity(fluid.rheology, 0)),
+                 "diffusion_number rho spacing^2 / viscosity at rest");
+  return step;
+}
+
+void add_time_step(CaseCheck& check, const BuiltCase& built) {
+  const TimeStep step = time_step(built.setup, built.setup.numerics.sound_speed);
+  check.time_step = step.length, check.time_step_reason = step.reason;
+  check.steps = std::ceil(built.resolved.output.last_time() / check.time_step);
+}
+
+// What each speed asks for and costs.
+void add_sound_speeds(CaseCheck& check, const BuiltCase& built) {
+  if (built.sound_speed_terms.empty()) return;
+  const SoundSpeedTerm& first = built.sound_speed_terms.front();
+  const std::string& rules = ruling(built.sound_speed_terms).name;
+  for (const SoundSpeedTerm& term : built.sound_speed_terms) {
+    const double c0 = term.sound_speed();
+    if (!(c0 > 0)) continue;
+    const TimeStep step = time_step(built.setup, c0);
+    std::string line = format("by %-9s %.4g m/s = %g x %.4g m/s, %s: time step %.3g s, %.0f steps",
+                              term.name.c_str(), c0, term.factor, term.speed, term.what.c_str(), step.length,
+                              std::ceil(built.resolved.output.last_time() / step.length));
+    if (&term != &first && first.sound_speed() > 0)
+      line += format(", %.3g times those by %s",
+                     time_step(built.setup, first.sound_speed()).length / step.length, first.name.c_str());
+    check.sound_speeds.push_back(line + (term.name == rules ? "; auto takes it" : ""));
+  }
+}
+
+void add_warnings(CaseCheck& check, const BuiltCase& built) {
+  check.warnings = built.warnings;
+  if (check.mach > 0.15)
+    check.warnings.push_back(
+        format("the Mach number %.2g exceeds 0.15: the fluid will be compressible; raise "
+               "numerics.sound_speed to %.3g m/s",
+               check.mach, 10 * check.speed));
+  for (const SoundSpeedTerm& term : built.sound_speed_terms)
+    if (term.name == "impact" && term.speed > 0.3 * check.sound_speed)
+      check.warnings.push_back(
+          format("fluid will meet walls or fluid at %.3g m/s: raise numerics.sound_speed to "
+                 "%.3g m/s",
+                 term.speed, term.sound_speed()));
+  const double memory =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+  if (check.memory > 0.9 * memory)
+    check.warnings.push_back(format("the run needs about %.2g GB, this machine has %.2g GB of memory",
+                                    check.memory / 1e9, memory / 1e9));
+  if (check.depth < 4 * check.spacing || check.width < 4 * check.spacing)
+    check.warnings.push_back("the fluid is less than 4 particles deep or wide: the resolution is too coarse");
+}
+
+std::string exits_text(const Case& c) {
+  if (c.domain.departure == Departure::stop) return "none: the run ends with an error when a particle leaves";
+  return exits_of(c) + ": what leaves through " +
+         (c.exits == std::array<bool, 6>{} ? "a face" : "another face") +
+         " of the domain is lost, beyond 0.1 % with a warning";
+}
+
+std::string duration(double seconds) {
+  if (seconds < 1) return "under a second";
+  if (seconds < 120) return format("%.0f s", seconds);
+  return seconds < 7200 ? format("%.0f min", seconds / 60) : format("%.1f h", seconds / 3600);
+}
+
+std::string number(double value) { return std::isnan(value) ? "-" : format("%.4g", value); }
+
+double memory_of(const SimulationSetup& setup) {
+  return bytes_per_fluid_particle * static_cast<double>(setup.particles.position.size()) +
+         bytes_per_wall_particle * static_cast<double>(setup.walls.position.size());
+}
+
+}  // namespace
+
+void require_memory(const BuiltCase& built, double available) {
+  const SimulationSetup& setup = built.setup;
+  const double needed = memory_of(setup);
+  if (needed <= available) return;
+  const char* key = "resolution.spacing";
+  throw InputError(built.resolved.place_of(key) + ": key '" + key + "': value " + show(setup.spacing) +
+                   " gives " + std::to_string(setup.particles.position.size()) + " fluid and " +
+                   std::to_string(setup.walls.position.size()) + " wall particles, which need about " +
+                   gigabytes(needed) + " of memory, " + gigabytes(available) +
+                   " are available: allowed: a larger spacing or smaller regions");
+}
+
+CaseCheck check_case(const BuiltCase& built) {
+  const SimulationSetup& setup = built.setup;
+  CaseCheck check;
+  check.fluid_particles = static_cast<std::int64_t>(setup.particles.position.size());
+  check.wall_particles = static_cast<std::int64_t>(setup.walls.position.size());
+  check.spacing = setup.spacing;
+  check.support_radius = setup.support_ratio * setup.spacing;
+  check.sound_speed = setup.numerics.sound_speed;
+  check.viscosity_correction = viscosity_correction(setup);
+  add_time_step(check, built);
+  add_sound_speeds(check, built);
+  add_lengths(check, setup);
+  add_speed(check, built);
+  add_numbers(check, setup);
+  check.mach = check.speed / check.sound_speed;
+  check.exits = exits_text(built.resolved);
+  const auto fluid = static_cast<double>(check.fluid_particles);
+  check.memory = memory_of(setup);
+  check.run_time = check.steps * fluid / particle_steps_per_second;
+  add_warnings(check, built);
+  return check;
+}
+
+std::string to_text(const CaseCheck& c) {
+  std::string text;
+  text += format("particles        %lld fluid, %lld wall\n", static_cast<long long>(c.fluid_particles),
+                 static_cast<long long>(c.wall_particles));
+  text += format("spacing          %.4g m, support radius h %.4g m\n", c.spacing, c.support_radius);
+  text += format("time step        %.4g s, limited by %s\n", c.time_step, c.time_step_reason.c_str());
+  text += format("steps            %.0f to the end time\n", c.steps);
+  text += format("scales           L %.4g m, H %.4g m, U %.4g m/s (%s)\n", c.width, c.depth, c.speed,
+                 c.speed_source.c_str());
+  for (const FluidNumbers& f : c.fluids)
+    text += format("fluid %-10s Reynolds %s, Bingham %s, N %s\n", f.name.c_str(), number(f.reynolds).c_str(),
+                   number(f.bingham).c_str(), number(f.dam).c_str());
+  text +=
+      "                 Reynolds = rho U L / eta, Bingham = tau_B L / (eta U), N = rho L sqrt(g H) / eta\n";
+  text += format("sound speed      %.4g m/s, Mach number %.3g\n", c.sound_speed, c.mach);
+  for (const std::string& line : c.sound_speeds) text += "                 " + line + "\n";
+  text += format("viscosity        corrected by %.4f for the bias of the operator at this support ratio\n",
+                 c.viscosity_correction);
+  text += "exits            " + c.exits + "\n";
+  text += format("memory           about %.3g MB\n", c.memory / 1e6);
+  text += format("run time         roughly %s on two CPU cores (%.2g particle-steps/s)\n",
+                 duration(c.run_time).c_str(), particle_steps_per_second);
+  for (const std::string& warning : c.warnings) text += "warning: " + warning + "\n";
+  return text;
+}
+
+}  // namespace slagflow

@@ -1,0 +1,321 @@
+#include "host/run/run_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <utility>
+
+#include "backend/error.hpp"
+#include "host/run/run_folder.hpp"
+
+namespace slagflow {
+namespace {
+
+template <class T>
+std::uint64_t checksum_of(const std::vector<T>& values, std::uint64_t so_far) {
+  return checksum(values.data(), values.size() * sizeof(T), so_far);
+}
+
+// Tells whether a case still starts from the same particles: its STL files are not part of it.
+std::int64_t checksum_of(const SimulationSetup& setup) {
+  const std::uint64_t sum =
+      checksum_of(setup.walls.body,
+                  checksum_of(setup.walls.position, checksum_of(setup.particles.position, checksum_start)));
+  std::int64_t value = 0;
+  std::memcpy(&value, &sum, sizeof value);
+  return value;
+}
+
+double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+}  // namespace
+
+bool Schedule::due(double time) {
+  constexpr double rounding = 1e-12;
+  if (time < next_ * (1 - rounding)) return false;
+  next_ = (std::floor(time / interval_ * (1 + rounding)) + 1) * interval_;
+  return true;
+}
+
+Run::Run(BuiltCase built, std::string folder, Log& log)
+    : built_(std::move(built)),
+      folder_(std::move(folder)),
+      log_(log),
+      store_(folder_),
+      provenance_(run_provenance(built_.resolved)),
+      geometry_(checksum_of(built_.setup)),
+      snapshot_due_(built_.resolved.output.interval),
+      history_due_(built_.resolved.output.history_interval),
+      measures_(built_.resolved, built_.setup),
+      losses_(built_.resolved) {
+  counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
+  counts_.walls = static_cast<std::int64_t>(built_.setup.walls.position.size());
+  particles_now_ = counts_.particles_start;
+  outcome_.folder = folder_;
+}
+
+void Run::go_on_from(Checkpoint checkpoint) {
+  const RunRecord& run = checkpoint.run;
+  if (run.geometry != geometry_)
+    throw Error(folder_ +
+                ": the case gives other particles at the start than it did: have its STL files changed?");
+  measures_.restore(run.measures);
+  losses_.restore(run.most_in_walls, run.deepest_in_wall);
+  snapshot_due_.restore(run.next_snapshot);
+  history_due_.restore(run.next_history);
+  recorded_step_ = run.recorded_step;
+  snapshot_step_ = run.snapshot_step;
+  particles_now_ = run.particles_now;
+  counts_.particle_steps = run.particle_steps;
+  counts_.max_density_error = run.max_density_error;
+  wall_before_ = run.wall_time;
+  resumes_ = run.resumes + 1;
+  provenance_.begin_with(checkpoint.texts);
+  saved_time_ = run.time;
+  resumed_ = std::move(checkpoint);
+}
+
+RunOutcome Run::execute() {
+  try {
+    start();
+    outcome_.status = loop();
+    save_checkpoint();
+    end_outputs();
+  } catch (const std::bad_alloc&) {
+    fail("out of memory (" + std::to_string(counts_.particles_start) + " fluid and " +
+         std::to_string(counts_.walls) + " wall particles)");
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+  counts_.wall_time = wall_before_ + seconds_between(started_, Clock::now());
+  write_summary();
+  if (simulation_) log_.info("end: " + progress_line(progress(), counts_.wall_time));
+  outcome_.results = measures_.lines();
+  tell_losses();
+  return std::move(outcome_);
+}
+
+void Run::start() {
+  write_file(folder_ + "/case.toml", provenance_.case_text);
+  log_.info("slagflow " + provenance_.version + " (" + provenance_.commit + "), " + provenance_.backend +
+            ", " + provenance_.precision + ", " + provenance_.device);
+  log_.info("case " + built_.resolved.name + ": " + std::to_string(counts_.particles_start) + " fluid and " +
+            std::to_string(counts_.walls) + " wall particles, to " + folder_);
+  simulation_.emplace(built_.setup);
+  built_.setup.particles = {};  // on the device now
+  built_.setup.walls = {};
+  if (resumed_) simulation_->restore(resumed_->state);
+  open_outputs();
+  counts_.setup_time = (resumed_ ? resumed_->run.setup_time : 0) + seconds_between(begun_, Clock::now());
+  resumed_.reset();
+  started_ = saved_ = Clock::now();
+}
+
+void Run::open_outputs() {
+  std::vector<std::string> columns = history_columns();
+  for (const std::string& name : measures_.columns()) columns.push_back(name);
+  const std::string history = folder_ + "/history.csv";
+  const SnapshotSizes sizes{static_cast<std::size_t>(counts_.particles_start),
+                            built_.resolved.output.walls ? static_cast<std::size_t>(counts_.walls) : 0};
+  if (!resumed_) {
+    history_.emplace(history, columns);
+    snapshots_.emplace(folder_, sizes, provenance_.attributes());
+    profiles_.emplace(built_.resolved, folder_);
+    return;
+  }
+  const RunRecord& run = resumed_->run;
+  history_.emplace(history, columns, HistoryEnd{run.history_lines, run.history_bytes});
+  snapshots_.emplace(folder_, sizes, PresentSnapshots(run.snapshots));
+  profiles_.emplace(built_.resolved, folder_, run.profiles);
+  snapshots_->describe(provenance_.attributes());  // another end time, perhaps
+}
+
+RunStatus Run::loop() {
+  Progress shown(log_, wall_before_);
+  Simulation& simulation = *simulation_;
+  while (true) {
+    const double time = simulation.time();
+    if (history_due_.due(time)) record();
+    if (snapshot_due_.due(time)) take_snapshot();
+    if (time >= built_.resolved.output.last_time()) return RunStatus::done;
+    if (measures_.arrived(built_.resolved.output.stop_after)) return RunStatus::done;
+    if (signals_.requested()) {
+      log_.warning("interrupted at " + std::to_string(time) + " s");
+      return RunStatus::interrupted;
+    }
+    if (simulation.particles() == 0) return end_early();
+    if (checkpoint_due()) try_to_save_checkpoint();
+    simulation.step();
+    counts_.particle_steps += particles_now_;
+    shown.update(progress());
+  }
+}
+
+// Nothing brings fluid into a domain.
+RunStatus Run::end_early() {
+  ended_early_ = "all fluid has left the domain and none can come";
+  log_.info(ended_early_ + ": ends at " + std::to_string(simulation_->time()) + " s");
+  return RunStatus::done;
+}
+
+// A line of the history; the measures are taken from the same totals.
+void Run::record() {
+  if (recorded_step_ == simulation_->steps()) return;
+  recorded_step_ = simulation_->steps();
+  const Totals totals = simulation_->totals();
+  particles_now_ = totals.particles;
+  counts_.max_density_error = std::max(counts_.max_density_error, totals.max_density_error);
+  losses_.look(*simulation_);
+  std::vector<double> values = history_values(*simulation_, totals);
+  const auto read = [this]() -> const FluidSnapshot& {
+    simulation_->read(measured_);
+    return measured_;
+  };
+  for (const double value : measures_.update(simulation_->time(), totals, read)) values.push_back(value);
+  history_->write(values);
+}
+
+void Run::take_snapshot() {
+  if (snapshot_step_ == simulation_->steps()) return;
+  snapshots_->write([this](Snapshot& snapshot) {
+    simulation_->start_reading(snapshot.arriving,
+                               snapshots_->writes_walls() ? Reading::fluid_and_walls : Reading::fluid);
+  });
+  profiles_->write(*simulation_);
+  snapshot_step_ = simulation_->steps();
+}
+
+bool Run::checkpoint_due() {
+  if (signals_.take_checkpoint_request()) return true;
+  const double interval = built_.resolved.output.checkpoint_interval;
+  return interval > 0 && (!saved_time_ || seconds_between(saved_, Clock::now()) >= interval);
+}
+
+// What the loop remembers now. The outputs must be on disk before a checkpoint counts on them.
+RunRecord Run::run_record() {
+  RunRecord run;
+  run.snapshots = snapshots_->finish_queue();
+  flush_to_disk(history_->path());
+  run.history_lines = history_->end().lines;
+  run.history_bytes = history_->end().bytes;
+  run.time = simulation_->time();
+  run.steps = simulation_->steps();
+  run.next_snapshot = snapshot_due_.next();
+  run.next_history = history_due_.next();
+  run.recorded_step = recorded_step_;
+  run.snapshot_step = snapshot_step_;
+  run.particles_now = particles_now_;
+  run.particle_steps = counts_.particle_steps;
+  run.max_density_error = counts_.max_density_error;
+  run.most_in_walls = losses_.in_walls().most;
+  run.deepest_in_wall = losses_.in_walls().deepest;
+  run.wall_time = wall_before_ + seconds_between(started_, Clock::now());
+  run.setup_time = counts_.setup_time;
+  run.resumes = resumes_;
+  run.geometry = geometry_;
+  run.measures = measures_.state();
+  run.profiles = profiles_->finish();
+  return run;
+}
+
+// Comes before the outputs of the end, which are not of the schedule: a resumed run drops them and gives
+// what an unbroken one gives. A state that the watch would not let pass is no checkpoint.
+void Run::save_checkpoint() {
+  simulation_->require_sound();
+  const RunRecord run = run_record();
+  store_.write({provenance_.attributes(), run, simulation_->save()});
+  saved_time_ = run.time;
+}
+
+// A run is worth more than a checkpoint: it goes on without one, but not without its other outputs.
+void Run::try_to_save_checkpoint() {
+  simulation_->require_sound();
+  const RunRecord run = run_record();
+  try {
+    store_.write({provenance_.attributes(), run, simulation_->save()});
+    saved_time_ = run.time;
+    log_.info("checkpoint at " + std::to_string(run.time) + " s");
+  } catch (const Error& error) {
+    log_.warning(std::string("no checkpoint, the last one stays: ") + error.what());
+  }
+  saved_ = Clock::now();
+}
+
+void Run::end_outputs() {
+  record();
+  take_snapshot();
+  losses_.look_at_all(*simulation_);
+  snapshots_->close();
+  provenance_.ended_utc = now_utc();
+  snapshots_->describe(provenance_.attributes());
+}
+
+void Run::tell_losses() {
+  if (!ended_early_.empty()) outcome_.results.push_back("ended early: " + ended_early_);
+  if (!simulation_) return;
+  try {
+    const Totals totals = simulation_->totals();
+    for (const std::string& line : losses_.lines(totals, counts_.particles_start)) {
+      log_.info(line);
+      outcome_.results.push_back(line);
+    }
+    for (const std::string& warning : losses_.warnings(totals, counts_.particles_start))
+      log_.warning(warning);
+  } catch (const std::exception& error) {
+    log_.warning(std::string("the losses are not known: ") + error.what());
+  }
+}
+
+void Run::fail(const std::string& reason) {
+  outcome_.status = RunStatus::failed;
+  outcome_.reason = reason;
+  log_.error(reason);
+  if (snapshots_) save_last_state();
+  if (saved_time_)
+    log_.info(std::string("the last good state, at ") + std::to_string(*saved_time_) + " s, is in " +
+              checkpoint_name);
+}
+
+void Run::save_last_state() {
+  try {
+    end_outputs();
+    log_.info("the last state, at " + std::to_string(simulation_->time()) + " s, is written");
+  } catch (const std::exception& error) {
+    log_.warning(std::string("the last state could not be written: ") + error.what());
+  }
+}
+
+void Run::write_summary() {
+  Json summary = summary_of_case(built_.resolved, provenance_, counts_);
+  try {
+    if (simulation_) add_results(summary, *simulation_, counts_);
+    if (simulation_) losses_.add_to(summary, simulation_->totals());
+  } catch (const std::exception& error) {
+    log_.warning(std::string("the summary lacks the results: ") + error.what());
+  }
+  constexpr const char* names[] = {"done", "interrupted", "failed"};
+  summary.set("status", names[static_cast<int>(outcome_.status)]).set("resumes", resumes_);
+  summary.set("ended_utc", provenance_.ended_utc.empty() ? now_utc() : provenance_.ended_utc);
+  if (outcome_.status == RunStatus::failed) summary.set("reason", outcome_.reason);
+  if (!ended_early_.empty()) summary.set("ended_early", ended_early_);
+  summary.set("measures", measures_.summary());
+  try {
+    write_file(folder_ + "/summary.json", summary.text() + "\n");
+  } catch (const std::exception& error) {
+    log_.error(error.what());
+    outcome_.status = RunStatus::failed;
+  }
+}
+
+ProgressState Run::progress() const {
+  const SolverTotals solver = simulation_->solver_totals();
+  const double mean =
+      solver.steps > 0 ? static_cast<double>(solver.iterations) / static_cast<double>(solver.steps) : 0;
+  return {simulation_->time(), built_.resolved.output.last_time(), simulation_->steps(),
+          counts_.particle_steps, mean};
+}
+
+}  // namespace slagflow

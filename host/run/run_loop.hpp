@@ -1,0 +1,94 @@
+// One run, new or resumed: its files, the loop over the steps, how it ends.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/geometry/setup_builder.hpp"
+#include "host/measures/losses.hpp"
+#include "host/measures/measures.hpp"
+#include "host/measures/profiles.hpp"
+#include "host/output/checkpoint_store.hpp"
+#include "host/output/history.hpp"
+#include "host/output/provenance.hpp"
+#include "host/output/snapshot_writer.hpp"
+#include "host/output/summary.hpp"
+#include "host/run/progress.hpp"
+#include "host/run/run.hpp"
+#include "host/run/run_interrupt.hpp"
+
+namespace slagflow {
+
+// Due at the first time at or after each multiple of an interval; time steps are not cut to meet it.
+class Schedule {
+ public:
+  explicit Schedule(double interval) : interval_(interval) {}
+
+  bool due(double time);
+  double next() const { return next_; }
+  void restore(double next) { next_ = next; }
+
+ private:
+  double interval_, next_ = 0;
+};
+
+class Run {
+ public:
+  // Of a case whose folder is ready. The log must outlive the run.
+  Run(BuiltCase built, std::string folder, Log& log);
+
+  // Goes on from a checkpoint of the same case instead of starting. Throws Error when the particles that
+  // the case starts from are others than they were.
+  void go_on_from(Checkpoint checkpoint);
+
+  // Runs to the end; failures are outcomes.
+  RunOutcome execute();
+
+ private:
+  void start();
+  void open_outputs();
+  RunStatus loop();
+  RunStatus end_early();
+  void record();
+  void take_snapshot();
+  bool checkpoint_due();
+  void save_checkpoint();
+  void try_to_save_checkpoint();
+  RunRecord run_record();
+  void end_outputs();
+  void tell_losses();
+  void save_last_state();
+  void fail(const std::string& reason);
+  void write_summary();
+  ProgressState progress() const;
+
+  using Clock = std::chrono::steady_clock;
+
+  InterruptGuard signals_;
+  BuiltCase built_;
+  std::string folder_;
+  Log& log_;
+  CheckpointStore store_;
+  Provenance provenance_;
+  Clock::time_point begun_ = Clock::now(), started_ = begun_, saved_ = begun_;
+  RunCounts counts_;
+  double wall_before_ = 0;            // [s], of earlier parts of the run
+  std::optional<double> saved_time_;  // [s] simulated, of the last checkpoint
+  std::int64_t geometry_ = 0, resumes_ = 0;
+  RunOutcome outcome_;
+  Schedule snapshot_due_, history_due_;
+  std::int64_t recorded_step_ = -1, snapshot_step_ = -1, particles_now_ = 0;
+  FluidSnapshot measured_;  // buffer of the measures
+  Measures measures_;
+  Losses losses_;
+  std::string ended_early_;  // why, if it did
+  std::optional<Checkpoint> resumed_;
+  std::optional<Simulation> simulation_;
+  std::optional<HistoryFile> history_;
+  std::optional<SnapshotWriter> snapshots_;
+  std::optional<ProfileFiles> profiles_;
+};
+
+}  // namespace slagflow

@@ -1,0 +1,246 @@
+// Sorting by cell, wrapping of periodic positions and departures.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/scene.hpp"
+#include "neighbours/ordering.hpp"
+
+namespace slagflow {
+namespace {
+
+using namespace testing_tools;
+
+const Vec3d extent{1, 2, 0.5};
+constexpr double width = 0.2;
+
+// One particle as the tests place it; all other values follow from its id.
+struct Placed {
+  Vec3d position;
+  std::uint8_t fluid = 0;
+};
+
+class OrderingOf : public testing::Test {
+ protected:
+  void sort(const std::vector<Placed>& particles, std::array<bool, 3> periodic) {
+    upload(particles);
+    grid_ = CellGrid::cover(extent, periodic, width);
+    Ordering ordering(context_, extent, periodic, grid_);
+    departed_.assign(2, {});
+    ordering.sort(fluid_, departed_);
+    cell_start_ = download(context_, ordering.fluid_sources(fluid_).cell_start);
+    position_ = download(context_, fluid_.position.span()), place_ = download(context_, fluid_.place.span());
+    id_ = download(context_, fluid_.id.span());
+  }
+
+  void upload(const std::vector<Placed>& particles) {
+    const std::size_t n = particles.size();
+    std::vector<Vec3d> position(n);
+    std::vector<Quad> place(n), motion(n), increment(n), last_increment(n), by_pressure(n), state(n);
+    std::vector<Index> id(n);
+    std::vector<std::uint8_t> fluid(n);
+    std::vector<Real> pressure(n), shear_rate(n), packing(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto mark = static_cast<Real>(i);
+      position[i] = particles[i].position, fluid[i] = particles[i].fluid, id[i] = static_cast<Index>(i);
+      place[i] = quad(to_real(position[i]), mark + 1), motion[i] = quad({mark, 0, 0}, mark + 2);
+      increment[i] = quad({0, mark, 0}, mark + 3), state[i] = quad({0, 0, mark}, mark + 4);
+      last_increment[i] = quad({mark, mark, 0}, 0), by_pressure[i] = quad({0, mark, mark}, 0);
+      pressure[i] = mark + 5, shear_rate[i] = mark + 6, packing[i] = mark + 7;
+    }
+    fluid_.resize(static_cast<Index>(n));
+    fluid_.position.upload(position), fluid_.place.upload(place), fluid_.motion.upload(motion);
+    fluid_.last_increment.upload(last_increment), fluid_.by_pressure.upload(by_pressure);
+    fluid_.increment.upload(increment), fluid_.state.upload(state), fluid_.id.upload(id);
+    fluid_.fluid.upload(fluid), fluid_.pressure.upload(pressure), fluid_.shear_rate.upload(shear_rate);
+    fluid_.packing.upload(packing);
+  }
+
+  Context context_;
+  FluidArrays fluid_{context_};
+  CellGrid grid_;
+  DepartureCounts departed_;
+  std::vector<Index> cell_start_, id_;
+  std::vector<Vec3d> position_;
+  std::vector<Quad> place_;
+};
+
+std::vector<Placed> random_particles(std::size_t n, double margin) {
+  Random random(5);
+  std::vector<Placed> particles(n);
+  for (Placed& p : particles) {
+    for (int k = 0; k < 3; ++k) p.position[k] = random.uniform(-margin, extent[k] + margin);
+    p.fluid = static_cast<std::uint8_t>(random.uniform(0, 2));
+  }
+  return particles;
+}
+
+TEST_F(OrderingOf, GoesByCellThenById) {
+  sort(random_particles(1000, 0), {false, false, false});
+  ASSERT_EQ(id_.size(), 1000U);
+  std::vector<std::pair<Index, Index>> keys;
+  for (std::size_t i = 0; i < id_.size(); ++i) keys.emplace_back(grid_.cell_of(xyz(place_[i])), id_[i]);
+  EXPECT_TRUE(std::is_sorted(keys.begin(), keys.end()));
+  EXPECT_GT(keys.back().first, 50) << "all particles are in few cells: nothing is tested";
+}
+
+TEST_F(OrderingOf, CellStartsFrameEachCell) {
+  sort(random_particles(1000, 0), {false, false, false});
+  ASSERT_EQ(cell_start_.size(), static_cast<std::size_t>(grid_.cells() + 1));
+  EXPECT_EQ(cell_start_.front(), 0);
+  EXPECT_EQ(cell_start_.back(), 1000);
+  for (Index cell = 0; cell < grid_.cells(); ++cell)
+    for (Index i = cell_start_[static_cast<std::size_t>(cell)];
+         i < cell_start_[static_cast<std::size_t>(cell) + 1]; ++i)
+      EXPECT_EQ(grid_.cell_of(xyz(place_[static_cast<std::size_t>(i)])), cell);
+}
+
+TEST_F(OrderingOf, MovesAllArraysTogether) {
+  const auto particles = random_particles(500, 0);
+  sort(particles, {false, false, false});
+  const auto motion = download(context_, fluid_.motion.span()),
+             increment = download(context_, fluid_.increment.span()),
+             last_increment = download(context_, fluid_.last_increment.span()),
+             by_pressure = download(context_, fluid_.by_pressure.span());
+  const auto state = download(context_, fluid_.state.span());
+  const auto pressure = download(context_, fluid_.pressure.span()),
+             rate = download(context_, fluid_.shear_rate.span()),
+             packing = download(context_, fluid_.packing.span());
+  const auto kind = download(context_, fluid_.fluid.span());
+  for (std::size_t i = 0; i < id_.size(); ++i) {
+    const auto mark = static_cast<Real>(id_[i]);
+    const Placed& p = particles[static_cast<std::size_t>(id_[i])];
+    EXPECT_EQ(position_[i], p.position);
+    EXPECT_EQ(xyz(place_[i]), to_real(p.position));
+    EXPECT_EQ(kind[i], p.fluid);
+    EXPECT_EQ(place_[i].w, mark + 1);
+    EXPECT_EQ(xyz(motion[i]), (Vec3{mark, 0, 0}));
+    EXPECT_EQ(motion[i].w, mark + 2);
+    EXPECT_EQ(increment[i].y, mark);
+    EXPECT_EQ(increment[i].w, mark + 3);
+    EXPECT_EQ(xyz(last_increment[i]), (Vec3{mark, mark, 0}));
+    EXPECT_EQ(xyz(by_pressure[i]), (Vec3{0, mark, mark}));
+    EXPECT_EQ(state[i].z, mark);
+    EXPECT_EQ(state[i].w, mark + 4);
+    EXPECT_EQ(pressure[i], mark + 5);
+    EXPECT_EQ(rate[i], mark + 6);
+    EXPECT_EQ(packing[i], mark + 7);
+  }
+}
+
+TEST_F(OrderingOf, CountsDeparturesByFaceAndFluid) {
+  std::vector<Placed> particles;
+  const Vec3d middle = 0.5 * extent;
+  for (int face = 0; face < faces; ++face)
+    for (int n = 0; n <= face; ++n) {  // face k: k + 1 particles, of which one is of fluid 1
+      Placed p{middle, static_cast<std::uint8_t>(n == 0 ? 1 : 0)};
+      p.position[face / 2] = face % 2 ? extent[face / 2] + 0.01 * (n + 1) : -0.01 * (n + 1);
+      particles.push_back(p);
+    }
+  particles.push_back({middle, 0});
+  sort(particles, {false, false, false});
+  for (std::size_t face = 0; face < faces; ++face) {
+    EXPECT_EQ(departed_[0][face], static_cast<std::int64_t>(face)) << face;
+    EXPECT_EQ(departed_[1][face], 1) << face;
+  }
+  EXPECT_EQ(fluid_.count, 1);
+  EXPECT_EQ(id_, std::vector<Index>{static_cast<Index>(particles.size()) - 1});
+  EXPECT_EQ(position_[0], middle);
+}
+
+TEST_F(OrderingOf, NoParticleIsLostOrInvented) {
+  const auto particles = random_particles(1000, 0.1);
+  sort(particles, {false, false, false});
+  std::int64_t gone = 0;
+  for (const auto& by_face : departed_)
+    for (std::int64_t count : by_face) gone += count;
+  std::size_t inside = 0;
+  for (const Placed& p : particles) {
+    bool in = true;
+    for (int k = 0; k < 3; ++k) in = in && p.position[k] >= 0 && p.position[k] <= extent[k];
+    inside += in;
+  }
+  EXPECT_EQ(id_.size(), inside);
+  EXPECT_EQ(gone, 1000 - static_cast<std::int64_t>(inside));
+  std::sort(id_.begin(), id_.end());
+  EXPECT_EQ(std::unique(id_.begin(), id_.end()), id_.end());
+}
+
+TEST_F(OrderingOf, ParticlesOnAFaceAreInside) {
+  sort({{{0, 0, 0}}, {extent}}, {false, false, false});
+  EXPECT_EQ(fluid_.count, 2);
+}
+
+TEST_F(OrderingOf, AllMayLeave) {
+  sort({{{-1, 0, 0}}, {{5, 0, 0}, 1}}, {false, false, false});
+  EXPECT_EQ(fluid_.count, 0);
+  EXPECT_EQ(departed_[0][0], 1);
+  EXPECT_EQ(departed_[1][1], 1);
+  EXPECT_EQ(cell_start_.back(), 0);
+}
+
+TEST_F(OrderingOf, NothingSortsToNothing) {
+  sort({}, {false, false, false});
+  EXPECT_EQ(fluid_.count, 0);
+  EXPECT_EQ(cell_start_.back(), 0);
+}
+
+TEST_F(OrderingOf, WrapsPeriodicPositions) {
+  sort({{{-0.25, 2.5, 0.25}}, {{3.25, -4.5, 0.25}}, {{-1e-20, 2, 0.25}}}, {true, true, false});
+  ASSERT_EQ(fluid_.count, 3);
+  for (const auto& by_face : departed_) EXPECT_EQ(by_face, (std::array<std::int64_t, faces>{}));
+  std::vector<Vec3d> by_id(3);
+  for (std::size_t i = 0; i < 3; ++i) by_id[static_cast<std::size_t>(id_[i])] = position_[i];
+  EXPECT_EQ(by_id[0], (Vec3d{0.75, 0.5, 0.25}));
+  EXPECT_EQ(by_id[1], (Vec3d{0.25, 1.5, 0.25}));
+  EXPECT_NEAR(std::remainder(by_id[2].x, extent.x), 0, 1e-15);
+  EXPECT_EQ(by_id[2].y, 0);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(xyz(place_[i]), to_real(position_[i]));
+}
+
+TEST_F(OrderingOf, APeriodicAxisAndAnOpenOneDoNotMix) {
+  sort({{{1.25, 1, -0.1}}, {{1.25, 1, 0.1}}}, {true, false, false});
+  EXPECT_EQ(departed_[0][4], 1);
+  ASSERT_EQ(fluid_.count, 1);
+  EXPECT_EQ(position_[0], (Vec3d{0.25, 1, 0.1}));
+}
+
+TEST_F(OrderingOf, ResultDoesNotDependOnTheOrderBefore) {
+  const auto particles = random_particles(300, 0);
+  sort(particles, {false, false, false});
+  const auto first = id_;
+  Ordering ordering(context_, extent, {false, false, false}, grid_);
+  ordering.sort(fluid_, departed_);
+  EXPECT_EQ(download(context_, fluid_.id.span()), first);
+}
+
+TEST_F(OrderingOf, OneCellGoesByIdWhateverTheOrderBefore) {
+  sort(random_particles(300, 0), {false, false, false});
+  ASSERT_FALSE(std::is_sorted(id_.begin(), id_.end()));
+  fluid_.position.upload(std::vector<Vec3d>(300, 0.5 * extent));
+  Ordering ordering(context_, extent, {false, false, false}, grid_);
+  ordering.sort(fluid_, departed_);
+  const auto ids = download(context_, fluid_.id.span());
+  EXPECT_TRUE(std::is_sorted(ids.begin(), ids.end()));
+}
+
+TEST(CellGrid, CellsAreAtLeastAsWideAsAsked) {
+  for (double w : {0.1, 0.2, 0.24, 0.5, 3.0}) {
+    const CellGrid grid = CellGrid::cover(extent, {false, true, false}, w);
+    EXPECT_GE(grid.narrowest, w);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_TRUE(grid.count[k] == 1 || extent[k] / grid.count[k] >= w);
+      EXPECT_GE(grid.count[k], 1);
+    }
+  }
+}
+
+TEST(CellGrid, AHugeDomainGetsWiderCellsInsteadOfTooMany) {
+  const CellGrid grid = CellGrid::cover({1000, 1000, 1000}, {false, false, false}, 0.01);
+  EXPECT_LE(static_cast<double>(grid.count[0]) * grid.count[1] * grid.count[2], 1 << 24);
+  EXPECT_GT(grid.cells(), 1 << 20);
+  EXPECT_GE(grid.narrowest, 1);
+}
+
+}  // namespace
+}  // namespace slagflow

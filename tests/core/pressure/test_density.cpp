@@ -1,0 +1,195 @@
+// The first sweep: density, equation of state, shear rate and viscosity against the oracle.
+#include <gtest/gtest.h>
+
+#include "core/scene.hpp"
+
+namespace slagflow {
+namespace {
+
+using namespace testing_tools;
+
+// Rounding: a sum of about 100 terms, each of some ten operations.
+constexpr double rounding = 40 * epsilon;
+
+class Density : public testing::TestWithParam<SceneOptions> {
+ protected:
+  Density() : scene_(GetParam()), scratch_(scene_.context, "scratch") {}
+
+  void advance(double dt) {
+    scene_.upload();
+    update_density(scene_.context, scene_.pairs(), scene_.fluid, scratch_, static_cast<Real>(dt));
+    motion_ = scene_.by_id(view(scene_.fluid).motion), state_ = scene_.by_id(view(scene_.fluid).state);
+    place_ = scene_.by_id(view(scene_.fluid).place), pressure_ = scene_.by_id(view(scene_.fluid).pressure);
+    shear_rate_ = scene_.by_id(Span<const Real>(scene_.fluid.shear_rate.span()));
+  }
+
+  // Of the step of dt that was made.
+  void expect_changes(double dt) const {
+    for (std::size_t i = 0; i < motion_.size(); ++i) {
+      const auto& p = scene_.world.particles[i];
+      const reference::Sum change = reference::density_change(scene_.world, i, dt);
+      EXPECT_NEAR(static_cast<double>(motion_[i].w), p.excess + change.value.x,
+                  rounding * change.size + 2 * epsilon * std::fabs(p.excess))
+          << "particle " << i;
+    }
+  }
+
+  void let_walls_move() {
+    Random random(3);
+    for (auto& wall : scene_.world.walls) {
+      const Vec3d a = random.vector(200), s = random.vector(0.05 * Scene::spacing);
+      wall.acceleration = {a.x, a.y, a.z}, wall.moved = {s.x, s.y, s.z};
+    }
+    scene_.walls_move = true;
+  }
+
+  Scene scene_;
+  Buffer<Real> scratch_;
+  std::vector<Quad> motion_, state_, place_;
+  std::vector<Real> pressure_, shear_rate_;
+};
+
+TEST_P(Density, ChangeMatchesOracle) {
+  advance(1e-3);
+  expect_changes(1e-3);
+}
+
+// A step later a particle is up to a twentieth of a spacing further: what the sums half-way are for.
+TEST_P(Density, ChangeMatchesOracleWhereWallsMove) {
+  let_walls_move();
+  advance(1e-3);
+  expect_changes(1e-3);
+}
+
+// A wall particle at its own limit has no density to diffuse towards.
+TEST_P(Density, ChangeMatchesOracleWhereWallsHaveLimits) {
+  scene_.give_walls_limits();
+  advance(1e-3);
+  expect_changes(1e-3);
+}
+
+TEST_P(Density, ShearRateMatchesOracle) {
+  for (auto& wall : scene_.world.walls) wall.v = {0.2, 0, -0.1};
+  let_walls_move();
+  advance(1e-3);
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    const reference::Sum squared = reference::shear_rate_squared(scene_.world, i, 1e-3);
+    EXPECT_NEAR(square(static_cast<double>(shear_rate_[i])), squared.value.x, rounding * squared.size)
+        << "particle " << i;
+  }
+}
+
+// Particles that a wall should have stopped, at all depths.
+TEST_P(Density, ContactMatchesOracle) {
+  if (scene_.world.walls.empty()) GTEST_SKIP() << "no walls";
+  for (auto& w : scene_.world.walls)
+    w.x = w.x + reference::Vec{1.7 * Scene::spacing, 0, 1.7 * Scene::spacing};
+  advance(1e-3);
+  const std::vector<Real> contact = scene_.by_id(Span<const Real>(scene_.fluid.contact.span()));
+  int touching = 0;
+  for (std::size_t i = 0; i < contact.size(); ++i) {
+    const double wanted = reference::contact_pressure(scene_.world, i);
+    touching += wanted > 0;
+    const double scale = wanted > 0 ? 2600 * 49.0 : 1e30;
+    EXPECT_NEAR(static_cast<double>(contact[i]), wanted, 20 * epsilon * scale) << "particle " << i;
+  }
+  EXPECT_GT(touching, 5);
+}
+
+TEST_P(Density, StateFollowsFromDensityAndShearRate) {
+  for (std::size_t i = 0; i < scene_.world.particles.size(); ++i)
+    scene_.world.particles[i].packing = rounded(1 + 0.01 * static_cast<double>(i % 5));
+  advance(1e-3);
+  int cut = 0;
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    const auto& p = scene_.world.particles[i];
+    const auto& kind = scene_.world.kind(p);
+    const double excess = static_cast<double>(motion_[i].w), density = kind.rest_density + excess;
+    const double raw = 49 * excess, pressure = std::max(raw, -scene_.world.tension_limit);
+    const double volume = p.packing * p.mass / density;
+    const double eta =
+        static_cast<double>(reference::viscosity(kind, static_cast<long double>(shear_rate_[i])));
+    cut += raw < pressure;
+    EXPECT_NEAR(static_cast<double>(pressure_[i]), pressure, 4 * epsilon * std::fabs(pressure));
+    EXPECT_EQ(state_[i].x, pressure_[i]);
+    EXPECT_NEAR(static_cast<double>(state_[i].y), eta, 20 * epsilon * eta);
+    EXPECT_NEAR(static_cast<double>(state_[i].z), volume, 4 * epsilon * volume);
+    EXPECT_EQ(state_[i].w, static_cast<Real>(p.mass));
+    EXPECT_EQ(place_[i].w, state_[i].z);
+  }
+  EXPECT_GT(cut, 0) << "no pressure reached the tension limit: the scene tests nothing there";
+}
+
+TEST_P(Density, VelocityAndPlaceStay) {
+  advance(1e-3);
+  for (std::size_t i = 0; i < motion_.size(); ++i) {
+    EXPECT_EQ(xyz(motion_[i]), to_device(scene_.world.particles[i].v));
+    EXPECT_EQ(xyz(place_[i]), to_device(scene_.world.particles[i].x));
+  }
+}
+
+// By a tenth of a radian in a step: along the chords, whose lengths neither strain nor density may show.
+TEST_P(Density, RigidMotionHasNoShearRateAndKeepsTheDensity) {
+  scene_.world.walls.clear();
+  scene_.world.diffusion = 0, scene_.flow.diffusion = 0;
+  const double dt = 1e-2;
+  const Vec3d spin = scene_.world.dimensions == 3 ? Vec3d{2, -6, 4} : Vec3d{0, 10, 0};
+  const Rotation back = rotation(-dt * spin);
+  scene_.world.period = {};  // a rotation does not fit into a periodic box
+  scene_.box = {};
+  for (auto& p : scene_.world.particles) {
+    const Vec3d now{p.x.x, p.x.y, p.x.z}, v = (now - back * now) * (1 / dt);
+    p.v = {0.3 + v.x, v.y, v.z - 0.2};
+  }
+  advance(dt);
+  // Velocities up to 1 m/s rounded to epsilon, over a spacing of 0.01 m.
+  for (Real rate : shear_rate_) EXPECT_LT(static_cast<double>(rate), 500 * epsilon);
+  for (std::size_t i = 0; i < motion_.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(motion_[i].w), scene_.world.particles[i].excess,
+                500 * epsilon * dt * scene_.world.density(scene_.world.particles[i]))
+        << "particle " << i;
+}
+
+// A particle that has been pulled apart takes no more than twice its volume, and its density stays above 0.
+TEST_P(Density, VolumeOfThinFluidIsBounded) {
+  for (auto& p : scene_.world.particles) p.excess = -0.9 * scene_.world.kind(p).rest_density;
+  advance(0);
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    const auto& p = scene_.world.particles[i];
+    EXPECT_NEAR(static_cast<double>(state_[i].z), 2 * p.mass / scene_.world.kind(p).rest_density,
+                4 * epsilon * p.volume);
+  }
+}
+
+TEST_P(Density, CoincidentParticlesStayFinite) {
+  auto& p = scene_.world.particles;
+  p[1].x = p[0].x;
+  p[2].x = p[0].x, p[2].x.z += 1e-9;
+  advance(1e-3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(std::isfinite(motion_[i].w));
+    EXPECT_TRUE(std::isfinite(shear_rate_[i]));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, Density, testing::ValuesIn(all_scenes()),
+                         [](const auto& p) { return scene_name(p.param); });
+
+// Uniform shear u = (G z, 0, 0) in the middle of a large lattice: gamma = sqrt(2 D:D) = G. The lattice's sums
+// differ from the integral: 0.927 along the axes of a cubic lattice at h = 2.6 spacings. The correction is
+// that of layers which slide.
+TEST(DensityOnALattice, ShearRateOfUniformShearIsItsGradient) {
+  Scene scene({3, Surroundings::free, 7, 0, 1});
+  for (auto& p : scene.world.particles)
+    p.v = {4 * p.x.z, 0, 0}, p.excess = 0, p.volume = 1e-6, p.fluid = 0, p.mass = 9e-4;
+  scene.upload();
+  Buffer<Real> scratch(scene.context, "scratch");
+  update_density(scene.context, scene.pairs(), scene.fluid, scratch, 0);
+  const auto rate = scene.by_id(Span<const Real>(scene.fluid.shear_rate.span()));
+  const std::size_t centre = 3 + 7 * (3 + 7 * 3);
+  EXPECT_NEAR(square(static_cast<double>(rate[centre]) / 4), viscosity_correction(scene.setup) * 0.927,
+              0.001);
+}
+
+}  // namespace
+}  // namespace slagflow

@@ -1,0 +1,174 @@
+// What a step asks of the device: how often the host waits, which on a GPU costs time in which nothing is
+// computed, and how much is launched. A CUDA build gives a step to the device as one graph.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/graph_loops.hpp"
+#include "core/simulation_setups.hpp"
+
+namespace slagflow {
+namespace {
+
+using namespace testing_tools;
+
+DeviceCounts counts_of_step(Simulation& simulation) {
+  const DeviceCounts before = simulation.device_counts();
+  simulation.step();
+  const DeviceCounts after = simulation.device_counts();
+  return {after.waits - before.waits, after.launches - before.launches,
+          after.graph_launches - before.graph_launches, after.graph_kernels - before.graph_kernels};
+}
+
+// Over steps without rebuild whose solve took few iterations.
+struct Quiet {
+  int steps = 0;
+  std::int64_t most_waits = 0, most_launches = 0, least_graphs = 1000, most_graphs = 0, most_kernels = 0;
+};
+
+Quiet quiet_steps(Simulation& simulation, int steps) {
+  constexpr int few_iterations = 4;
+  simulation.step();  // makes the solver's arrays, and waits for each
+  Quiet quiet;
+  for (int k = 1; k < steps; ++k) {
+    const std::int64_t builds = simulation.list_builds();
+    const DeviceCounts c = counts_of_step(simulation);
+    if (simulation.list_builds() > builds || simulation.last_solve().iterations >= few_iterations) continue;
+    ++quiet.steps;
+    quiet.most_waits = std::max(quiet.most_waits, c.waits);
+    quiet.most_launches = std::max(quiet.most_launches, c.launches);
+    quiet.least_graphs = std::min(quiet.least_graphs, c.graph_launches);
+    quiet.most_graphs = std::max(quiet.most_graphs, c.graph_launches);
+    quiet.most_kernels = std::max(quiet.most_kernels, c.graph_kernels);
+  }
+  return quiet;
+}
+
+void expect_one_graph_a_step(const Quiet& quiet) {
+  EXPECT_EQ(quiet.least_graphs, on_gpu() ? 1 : 0);
+  EXPECT_EQ(quiet.most_graphs, on_gpu() ? 1 : 0);
+  if (on_gpu()) {
+    EXPECT_GT(quiet.most_kernels, 15);
+  }
+}
+
+void expect_one_wait_and_one_launch_a_step(const Quiet& quiet) {
+  EXPECT_GT(quiet.steps, 3);
+  EXPECT_EQ(quiet.most_waits, 1);
+  EXPECT_EQ(quiet.most_launches, 0);
+  expect_one_graph_a_step(quiet);
+}
+
+Quiet quiet_steps(SimulationSetup setup, int steps) {
+  setup.limits.interval = 1000000;  // the watch reads on its own
+  Simulation simulation(setup);
+  return quiet_steps(simulation, steps);
+}
+
+TEST(StepWaits, OnceInAStepOfFlow) { expect_one_wait_and_one_launch_a_step(quiet_steps(dam(), 20)); }
+
+TEST(StepWaits, OnceInAStepWithSurfaceTension) {
+  SimulationSetup s = dam();
+  s.fluids[0].surface_tension = 2;
+  expect_one_wait_and_one_launch_a_step(quiet_steps(s, 16));
+}
+
+TEST(StepWaits, OnceInAStepWithShiftingAndForcesOnWalls) {
+  SimulationSetup s = dam();
+  s.numerics.shifting = 0.5;
+  s.measure_walls = true;
+  expect_one_wait_and_one_launch_a_step(quiet_steps(s, 12));
+}
+
+TEST(StepWaits, OnceInAStepAtRest) { expect_one_wait_and_one_launch_a_step(quiet_steps(tank(oil()), 12)); }
+
+TEST(StepWaits, OnceInAStepOfTwoDimensions) {
+  expect_one_wait_and_one_launch_a_step(quiet_steps(flat_tank(oil()), 12));
+}
+
+TEST(StepWaits, OnceInAStepOfARunThatWentOn) {
+  SimulationSetup s = dam();
+  s.limits.interval = 1000000;
+  Simulation first(s), second(s);
+  for (int k = 0; k < 5; ++k) first.step();
+  second.restore(first.save());
+  expect_one_wait_and_one_launch_a_step(quiet_steps(second, 12));
+}
+
+TEST(StepWaits, TwiceMoreWhenTheWatchLooks) {
+  SimulationSetup s = tank(oil());
+  s.limits.interval = 1;
+  Simulation simulation(s);
+  EXPECT_EQ(quiet_steps(simulation, 8).most_waits, 3);  // for its maxima and for its sums
+}
+
+// For its first four iterations, for each two with multigrid, and for what it moved.
+TEST(StepWaits, AStiffStepWaitsForItsIterationsOnly) {
+  SimulationSetup s = dam();
+  s.fluids[1].rheology.parameters[0] = 30;
+  s.numerics.tolerance = 1e-4;
+  s.limits.interval = 1000000;
+  Simulation simulation(s);
+  simulation.step();
+  int stiff = 0;
+  for (int k = 0; k < 12; ++k) {
+    const std::int64_t builds = simulation.list_builds();
+    const DeviceCounts c = counts_of_step(simulation);
+    const int by_levels = simulation.last_solve().iterations - 4;
+    if (simulation.list_builds() > builds || by_levels <= 0) continue;
+    EXPECT_EQ(c.waits, 2 + (by_levels + 1) / 2) << by_levels;
+    ++stiff;
+  }
+  EXPECT_GT(stiff, 3);
+}
+
+// Moving walls are placed, and their lists judged, from the host; the step itself is one graph all the same.
+TEST(StepWaits, MovingWallsLeaveTheStepOneGraph) {
+  const Quiet quiet = quiet_steps(moving_dam(), 10);
+  EXPECT_GT(quiet.steps, 3);
+  expect_one_graph_a_step(quiet);
+}
+
+// A step that is tried again starts with a graph and goes on launch by launch; the next one is a graph again.
+TEST(StepWaits, ARetriedStepIsOneGraphAndMore) {
+  SimulationSetup s = dam();
+  s.numerics.solver = ViscousSolver::conjugate_gradient;
+  Simulation smooth(s);
+  smooth.step();
+  s.numerics.max_iterations = smooth.last_solve().iterations / 2;
+  Simulation simulation(s);
+  const DeviceCounts first = counts_of_step(simulation), second = counts_of_step(simulation);
+  EXPECT_GE(simulation.solver_totals().retried, 1);
+  EXPECT_EQ(first.graph_launches, on_gpu() ? 1 : 0);
+  EXPECT_EQ(second.graph_launches, on_gpu() ? 1 : 0);
+  if (on_gpu()) {
+    EXPECT_GT(first.launches, 10);
+  }
+}
+
+// A graph must not hold a number or a place of an earlier step.
+TEST(StepWaits, AGraphComputesTheBitsOfSingleLaunches) {
+  SimulationSetup all = moving_dam(), weightless = dam();
+  all.fluids[0].surface_tension = 2, all.numerics.shifting = 0.5;
+  all.bodies[1].motion.remove_at = 0.003;
+  weightless.gravity = {}, weightless.numerics.viscous_step = ViscousStepping::explicit_step;
+  constexpr int steps = 9;
+  for (SimulationSetup setup : {all, weightless}) {
+    Simulation graphs(setup);
+    setup.time_parts = true;
+    Simulation single(setup);
+    for (int k = 0; k < steps; ++k) {
+      graphs.step(), single.step();
+      FluidSnapshot snapshot;
+      if (k == 4) graphs.read(snapshot), graphs.totals();
+    }
+    const SavedState a = graphs.save(), b = single.save();
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].bytes, b[k].bytes) << a[k].name;
+    EXPECT_EQ(single.device_counts().graph_launches, 0);
+    EXPECT_EQ(graphs.device_counts().graph_launches, on_gpu() ? steps : 0);
+  }
+}
+
+}  // namespace
+}  // namespace slagflow

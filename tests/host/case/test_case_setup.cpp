@@ -1,0 +1,94 @@
+// From a case to the setup of a simulation.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "backend/error.hpp"
+#include "host/geometry/setup_builder.hpp"
+#include "host/geometry_cases.hpp"
+
+namespace slagflow {
+namespace {
+
+std::string error_of(const Case& c) {
+  try {
+    build_setup(c);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(SetupBuilder, FillsInEverything) {
+  Case c = unit_case();
+  c.walls = {wall("floor", {{PlaneSpec{{0, 0, 2}, {0, 0, 1}}, false}})};
+  c.walls[0].slip = WallSlip::free_slip;
+  c.body_force = {1, 0, 0};
+  MeasureSpec front;
+  front.direction = {0, 1};
+  front.position = 7;
+  MeasureSpec jet;
+  jet.type = MeasureType::jet;
+  jet.bottom = 1;
+  c.measures = {jet, front};
+  const BuiltCase built = build_setup(c);
+  const SimulationSetup& s = built.setup;
+  EXPECT_EQ(s.spacing, 1);
+  EXPECT_EQ(s.support_ratio, 2.6);
+  EXPECT_TRUE(s.gravity == c.gravity);
+  EXPECT_EQ(s.body_acceleration.x, 1);
+  EXPECT_EQ(s.fluids.at(0).name, "water");
+  EXPECT_EQ(s.fluids.at(0).rest_density, 1000);
+  EXPECT_FLOAT_EQ(static_cast<float>(s.fluids.at(0).rheology.parameters[0]), 1e-3f);
+  EXPECT_EQ(s.particles.position.size(), 8u);
+  EXPECT_EQ(s.particles.velocity.size(), 8u);
+  EXPECT_EQ(s.walls.body.size(), s.walls.position.size());
+  EXPECT_EQ(s.bodies.at(0).name, "floor");
+  EXPECT_EQ(s.bodies.at(0).slip, WallSlip::free_slip);
+  ASSERT_EQ(s.fronts.size(), 2u);
+  EXPECT_EQ(s.fronts[0].axis, 2);
+  EXPECT_EQ(s.fronts[0].sign, -1);
+  EXPECT_EQ(s.fronts[0].position, 1);
+  EXPECT_EQ(s.fronts[1].axis, 0);
+  EXPECT_EQ(s.fronts[1].sign, 1);
+  EXPECT_EQ(s.fronts[1].position, 7);
+  // The fluid is 2 deep: 11 sqrt(2 g H).
+  EXPECT_NEAR(s.numerics.sound_speed, 11 * std::sqrt(2 * 10 * 2.0), 1e-9);
+  EXPECT_EQ(built.resolved.numerics.sound_speed, s.numerics.sound_speed);
+  EXPECT_NE(to_toml(built.resolved).find("sound_speed = 69.57"), std::string::npos);
+}
+
+TEST(SetupBuilder, RefusesWhatCannotRun) {
+  Case c = unit_case();
+  c.gravity = {0, 0, 0};
+  EXPECT_THAT(error_of(c),
+              testing::HasSubstr("key 'numerics.sound_speed': value \"auto\" gives 0 without gravity"));
+  c = unit_case();
+  c.regions[0].shapes = {box({4.6, 4.6, 4.6}, {5.4, 5.4, 5.4})};
+  EXPECT_THAT(error_of(c), testing::HasSubstr("unit.toml:12: key 'region.0': no particle"));
+  c.dimensions = 2;
+  EXPECT_THAT(error_of(c), testing::HasSubstr("a lattice site in the plane y = 0, inside the domain"));
+  c = unit_case();
+  c.walls = {wall("w", {stl_shape(write_temp_file("empty.stl", "solid\nendsolid\n"))})};
+  EXPECT_THAT(error_of(c), testing::HasSubstr("key 'wall.0.shapes.0': "));
+}
+
+TEST(SetupBuilder, RefusesMoreThanTheMemoryHolds) {
+  Case c = unit_case();
+  c.spacing = 1e-4;
+  EXPECT_THAT(error_of(c),
+              testing::AllOf(testing::HasSubstr("unit.toml:5: key 'resolution.spacing'"),
+                             testing::HasSubstr("GB of memory"), testing::HasSubstr("available")));
+  c.spacing = 1e-12;
+  EXPECT_THAT(error_of(c),
+              testing::HasSubstr("value 1e-12: the domain reaches more than 1e9 spacings from the "
+                                 "origin"));
+  c = unit_case();
+  c.domain.lower = {-1e29, -1e29, -1e29};
+  c.domain.upper = {1e29, 1e29, 1e29};
+  EXPECT_THAT(error_of(c), testing::HasSubstr("more than 1e9 spacings"));
+}
+
+}  // namespace
+}  // namespace slagflow

@@ -1,0 +1,135 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "host/program/program.hpp"
+#include "host/temp_folder.hpp"
+#include "host/tiny_case.hpp"
+
+namespace slagflow {
+namespace {
+
+using testing::HasSubstr;
+using testing_tools::read_text_file;
+using testing_tools::TempFolder;
+using testing_tools::tiny_case;
+
+struct Result {
+  int code;
+  std::string out, err;
+};
+
+Result call(std::vector<std::string> arguments) {
+  std::vector<const char*> argv{"slagflow"};
+  for (const std::string& a : arguments) argv.push_back(a.c_str());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  const int code = run_program(static_cast<int>(argv.size()), argv.data());
+  std::fflush(stdout);
+  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
+}
+
+class Program : public testing::Test {
+ protected:
+  Program() { std::ofstream(case_file()) << tiny_case(); }
+  std::string case_file() const { return folder_ / "tiny.toml"; }
+
+  const TempFolder folder_;
+};
+
+TEST_F(Program, TellsVersionBuildAndDevice) {
+  const Result result = call({"--version"});
+  EXPECT_EQ(result.code, 0);
+  for (const char* part : {"slagflow ", "commit ", "build ", "device "})
+    EXPECT_THAT(result.out, HasSubstr(part));
+}
+
+TEST_F(Program, HelpNamesTheCommands) {
+  const Result result = call({"--help"});
+  EXPECT_EQ(result.code, 0);
+  for (const char* part : {"run", "resume", "check", "info", "rheometry"})
+    EXPECT_THAT(result.out, HasSubstr(part));
+}
+
+TEST_F(Program, BadArgumentsGiveTwo) {
+  EXPECT_EQ(call({}).code, 2);
+  EXPECT_EQ(call({"walk"}).code, 2);
+  EXPECT_EQ(call({"run"}).code, 2);
+  EXPECT_EQ(call({"run", case_file(), "--threads", "0"}).code, 2);
+  for (const char* until : {"-1", "0", "nan", "inf", "1e31", "soon"}) {
+    const Result refused = call({"run", case_file(), "--until", until});
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_THAT(refused.err, HasSubstr(std::string("--until: value ") + until + ": allowed: a number > 0.0"));
+  }
+  const Result result = call({"run", case_file(), "--fast"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("--fast"));
+}
+
+TEST_F(Program, MissingCaseFileGivesTwo) {
+  const Result result = call({"run", folder_ / "none.toml"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("none.toml"));
+}
+
+TEST_F(Program, BadCaseGivesTwoWithFileAndLine) {
+  std::ofstream(folder_ / "bad.toml") << tiny_case() << "[outputs]\n";
+  const Result result = call({"check", folder_ / "bad.toml"});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_THAT(result.err, HasSubstr("bad.toml:"));
+  EXPECT_THAT(result.err, HasSubstr("outputs"));
+}
+
+TEST_F(Program, RunsACaseAndRefusesToReplaceIt) {
+  const std::string folder = folder_ / "out";
+  const Result first = call({"run", case_file(), "--threads", "1", "-o", folder, "--quiet"});
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_THAT(first.out, HasSubstr("results in " + folder));
+  EXPECT_THAT(first.out, HasSubstr("spread (front): "));
+  EXPECT_EQ(first.err, "");
+
+  const Result second = call({"run", case_file(), "--threads", "1", "-o", folder});
+  EXPECT_EQ(second.code, 2);
+  EXPECT_THAT(second.err, HasSubstr(folder));
+  EXPECT_THAT(second.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(call({"run", case_file(), "--threads", "1", "-o", folder, "--overwrite", "--quiet"}).code, 0);
+}
+
+TEST_F(Program, SetsKeysOfTheCase) {
+  const std::string folder = folder_ / "out";
+  const Result result = call({"run", case_file(), "--threads", "1", "-o", folder, "--quiet", "--set",
+                              "fluid.oil.yield_stress=7.25", "--set", "output.end_time=1e-3"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(read_text_file(folder + "/case.toml"), HasSubstr("7.25"));
+  const Result bad = call({"check", case_file(), "--set", "fluid.oil.yield_stress=-1"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("yield_stress"));
+}
+
+TEST_F(Program, UnwritableFolderGivesOneWithItsName) {
+  std::ofstream(folder_ / "file") << "no folder";
+  const Result result = call({"run", case_file(), "--threads", "1", "-o", folder_ / "file/out"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("file/out"));
+}
+
+TEST_F(Program, CheckTellsSizesNumbersAndCost) {
+  const Result result = call({"check", case_file()});
+  EXPECT_EQ(result.code, 0) << result.err;
+  for (const char* part : {"125 fluid", "support radius", "limited by", "Reynolds", "Bingham", "N ", "Mach",
+                           "memory", "run time"})
+    EXPECT_THAT(result.out, HasSubstr(part));
+}
+
+TEST_F(Program, InfoDescribesAFileOfARun) {
+  call({"run", case_file(), "--threads", "1", "-o", folder_ / "out", "--quiet"});
+  const Result result = call({"info", folder_ / "out/particles.vtkhdf"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, HasSubstr("case: tiny"));
+  const Result missing = call({"info", folder_ / "none.vtkhdf"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.err, HasSubstr("none.vtkhdf"));
+}
+
+}  // namespace
+}  // namespace slagflow

@@ -1,0 +1,122 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "backend/error.hpp"
+#include "host/run/check.hpp"
+#include "host/tiny_case.hpp"
+
+namespace slagflow {
+namespace {
+
+// A block of 5 x 10 x 2 particles of 10 mm: 50 mm wide (L), 20 mm deep (H).
+BuiltCase block() {
+  BuiltCase built;
+  SimulationSetup& s = built.setup;
+  s.spacing = 0.01;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 10; ++j)
+      for (int k = 0; k < 2; ++k) s.particles.position.push_back({0.01 * i, 0.01 * j, 0.01 * k});
+  s.particles.velocity.resize(s.particles.position.size());
+  s.walls.position.resize(30);
+  s.numerics.sound_speed = 7;
+  FluidSetup oil;
+  oil.name = "oil";
+  oil.rest_density = 965;
+  oil.rheology.kind = RheologyKind::bingham;
+  oil.rheology.parameters[0] = static_cast<Real>(0.5);
+  oil.rheology.parameters[1] = 5;
+  s.fluids.push_back(oil);
+  built.resolved.output.end_time = 1;
+  return built;
+}
+
+TEST(CaseCheck, NumbersFollowTheirFormulas) {
+  const CaseCheck c = check_case(block());
+  EXPECT_EQ(c.fluid_particles, 100);
+  EXPECT_NEAR(c.width, 0.05, 1e-12);
+  EXPECT_NEAR(c.depth, 0.02, 1e-12);
+  const double speed = std::sqrt(2 * 9.81 * 0.02);
+  EXPECT_NEAR(c.speed, speed, 1e-12);
+  EXPECT_EQ(c.speed_source, "sqrt(2 g H)");
+  EXPECT_NEAR(c.fluids[0].reynolds, 965 * speed * 0.05 / 0.5, 1e-9);
+  EXPECT_NEAR(c.fluids[0].bingham, 5 * 0.05 / (0.5 * speed), 1e-9);
+  EXPECT_NEAR(c.fluids[0].dam, 965 * 0.05 * std::sqrt(9.81 * 0.02) / 0.5, 1e-9);
+  EXPECT_NEAR(c.mach, speed / 7, 1e-12);
+  EXPECT_NEAR(c.memory, 100 * 2000.0 + 30 * 300.0, 1e-6);
+}
+
+TEST(CaseCheck, TimeStepNamesItsLimit) {
+  BuiltCase built = block();
+  EXPECT_NEAR(check_case(built).time_step, 0.8 * 0.013 / 7, 1e-12);
+  EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("sound speed"));
+  EXPECT_EQ(check_case(built).steps, std::ceil(1 / (0.8 * 0.013 / 7)));
+  built.setup.numerics.max_time_step = 1e-4;
+  EXPECT_EQ(check_case(built).time_step, 1e-4);
+  EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("max_time_step"));
+}
+
+TEST(CaseCheck, ExplicitViscosityIsLimitedByTheFluidAtRest) {
+  BuiltCase built = block();
+  built.setup.numerics.viscous_step = ViscousStepping::explicit_step;
+  built.setup.numerics.diffusion_number = 0.2;
+  built.setup.fluids[0].rheology.parameters[2] = 1000;
+  const CaseCheck c = check_case(built);
+  EXPECT_NEAR(c.time_step, 0.2 * 965 * 0.01 * 0.01 / (0.5 + 1000 * 5), 1e-6 * c.time_step);
+  EXPECT_THAT(c.time_step_reason, testing::HasSubstr("diffusion_number"));
+}
+
+TEST(CaseCheck, ShowsTheViscosityCorrection) {
+  const CaseCheck c = check_case(block());
+  EXPECT_NEAR(c.viscosity_correction, 1.047, 0.001);
+  EXPECT_THAT(to_text(c), testing::HasSubstr("corrected by 1.047"));
+}
+
+TEST(CaseCheck, TakesTheSpeedAtTheStartWhereItIsLarger) {
+  BuiltCase built = block();
+  built.setup.particles.velocity[3] = {0, 3, 4};
+  const CaseCheck c = check_case(built);
+  EXPECT_DOUBLE_EQ(c.speed, 5);
+  EXPECT_EQ(c.speed_source, "largest speed at the start");
+  EXPECT_THAT(c.warnings, testing::Contains(testing::HasSubstr("Mach number")));
+}
+
+TEST(CaseCheck, HasNoNumbersWithoutAnySpeed) {
+  BuiltCase built = block();
+  built.setup.gravity = {0, 0, 0};
+  const CaseCheck c = check_case(built);
+  EXPECT_TRUE(std::isnan(c.fluids[0].reynolds));
+  EXPECT_TRUE(std::isnan(c.fluids[0].dam));
+  EXPECT_THAT(to_text(c), testing::HasSubstr("Reynolds -, Bingham -, N -"));
+}
+
+TEST(CaseCheck, IgnoresTheThirdDirectionInTwoDimensions) {
+  BuiltCase built = block();
+  built.setup.dimensions = 2;
+  for (Vec3d& p : built.setup.particles.position) p.y = 0;
+  EXPECT_NEAR(check_case(built).width, 0.05, 1e-12);
+}
+
+TEST(CaseCheck, PassesOnWarnings) {
+  BuiltCase built = block();
+  built.warnings = {"something odd"};
+  EXPECT_THAT(to_text(check_case(built)), testing::HasSubstr("warning: something odd"));
+}
+
+TEST(Check, RefusesWhatNeedsMoreMemoryThanThereIs) {
+  const BuiltCase built = build_setup(parse_case(testing_tools::tiny_case(), "tiny.toml"));
+  EXPECT_NO_THROW(require_memory(built, 1e9));
+  try {
+    require_memory(built, 1e5);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::MatchesRegex(
+                                  "tiny.toml:4: key 'resolution.spacing': value 0.002 gives 125 fluid and "
+                                  "[0-9]+ wall particles, which need about 0.00 GB of memory, 0.00 GB are "
+                                  "available: allowed: .*"));
+  }
+}
+
+}  // namespace
+}  // namespace slagflow
