@@ -5,7 +5,7 @@
 
 #include "fluid/setup.hpp"
 #include "fluid/step_record.hpp"
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "backend/reduce.hpp"
-#include "observation/diagnostics.hpp"
+#include "fluid/diagnostic_scratch.hpp"
 
 namespace slagflow {
 

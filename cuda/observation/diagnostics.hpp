@@ -1,17 +1,12 @@
 // Sums over the fluid that a history line needs.
 #pragma once
 
-#include "pressure/density.hpp"
-#include "simulation/simulation.hpp"
+#include "fluid/diagnostic_scratch.hpp"
+#include "fluid/setup.hpp"
+#include "neighbours/pairs.hpp"
+#include "observation/totals.hpp"
 
 namespace slagflow {
-
-// Scratch of the sums.
-struct DiagnosticScratch {
-  static constexpr int most_terms = 4;
-  explicit DiagnosticScratch(Context& c) : result(c, "diagnostic sums", most_terms) {}
-  Buffer<double> result;
-};
 
 // Mass, energies, momenta, densities and fronts of the particles in the domain. Positions on the device are
 // relative to setup.domain.lower. Counts, the other masses and dissipation are the caller's.

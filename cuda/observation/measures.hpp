@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "fluid/diagnostic_scratch.hpp"
+#include "fluid/setup.hpp"
 #include "neighbours/ordering.hpp"
-#include "observation/diagnostics.hpp"
-#include "simulation/simulation.hpp"
+#include "observation/totals.hpp"
 
 namespace slagflow {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "capillarity/surface_tension.hpp"
+#include "fluid/diagnostic_scratch.hpp"
 #include "fluid/solve_state.hpp"
-#include "observation/diagnostics.hpp"
-#include "simulation/simulation.hpp"
+#include "observation/totals.hpp"
 #include "viscosity/exact_yield.hpp"
 
 namespace slagflow {

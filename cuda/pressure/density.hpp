@@ -1,23 +1,9 @@
 // First sweep over the pairs: continuity with density diffusion, pressure, shear rate and viscosity.
 #pragma once
 
-#include "backend/buffer.hpp"
-#include "fluid/params.hpp"
-#include "fluid/particles.hpp"
-#include "neighbours/neighbours.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
-
-// What a sweep over the pairs of the fluid particles needs.
-struct PairContext {
-  ListView fluid_list, wall_list;
-  FluidView fluid;
-  WallView wall;
-  Span<const FluidConstants> fluids;
-  FlowConstants flow;
-  PeriodicBox box;
-  Span<const Quad> capillary{};  // xyz: acceleration by surface tension [m/s^2]; empty without
-};
 
 // Advances the density over the last step, which took `moved` seconds, with
 //   d rho_i/dt = rho_i sum_j V_j (v_i - v_j).grad W_ij

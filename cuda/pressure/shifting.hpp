@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fluid/solve_state.hpp"
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "backend/buffer.hpp"
+#include "fluid/diagnostic_scratch.hpp"
 #include "fluid/particles.hpp"
 #include "fluid/step_record.hpp"
-#include "observation/diagnostics.hpp"
 
 namespace slagflow {
 

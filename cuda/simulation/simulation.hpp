@@ -1,7 +1,6 @@
 // The simulation: owns all particle data on the device and advances it step by step.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "backend/device.hpp"
 #include "fluid/saved_state.hpp"
 #include "fluid/setup.hpp"
+#include "observation/totals.hpp"
 
 namespace slagflow {
 
@@ -56,59 +56,6 @@ class StateTransfer {
   friend class Simulation;
   struct Data;
   std::unique_ptr<Data> data_;
-};
-
-struct FrontState {
-  std::int64_t passed = 0;  // particles beyond the plane, those that left through a face beyond it included
-  Vec3d mean_position;      // [m] of those beyond it that are still in the domain
-  double extreme = 0;       // [m] leading coordinate along the axis
-};
-
-// What has passed a plane, in particles. passed + behind + lost_behind = start_behind, unless the axis is
-// periodic.
-struct PlaneState {
-  std::int64_t passed = 0;        // along the plane's direction less against it, since the start
-  std::int64_t behind = 0;        // in the domain, not beyond the plane
-  std::int64_t lost_behind = 0;   // left the domain while behind the plane
-  std::int64_t start_behind = 0;  // behind at the start
-};
-
-// The fluid at a point of a line; not-a-number where there is too little of it.
-struct ProfilePoint {
-  double distance = 0;    // [m] from the start of the line
-  Vec3d position;         // [m]
-  Vec3d velocity;         // [m/s]
-  double shear_rate = 0;  // [1/s]
-  double viscosity = 0;   // [Pa s]
-  double fill = 0;        // sum of V_j W: 1 inside of the fluid
-};
-
-// What the fluid did to a wall since the start, as integrals over time: forces [N s], torques [N m s] about
-// the origin; and the work the wall did on the fluid [J].
-struct WallLoad {
-  Vec3d pressure, viscous;
-  Vec3d pressure_torque, viscous_torque;
-  double work = 0;
-};
-
-struct Totals {
-  std::int64_t particles = 0;              // fluid particles in the domain
-  std::array<std::int64_t, 6> departed{};  // through -x +x -y +y -z +z
-  double mass_start = 0;                   // [kg] at the start
-  double mass_in = 0;                      // [kg] in the domain
-  double mass_left = 0;                    // [kg] departed
-  double max_speed = 0;                    // [m/s]
-  double kinetic_energy = 0;               // [J]
-  double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
-  double dissipated_energy = 0;            // [J], by viscosity since the start
-  double max_density_error = 0;     // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
-  double min_density_ratio = 1;     // smallest rho/rho0
-  Vec3d momentum;                   // [kg m/s]
-  Vec3d angular_momentum;           // [kg m^2/s] about the origin
-  std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
-  std::vector<PlaneState> planes;   // one per SimulationSetup::planes
-  std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
-  std::vector<WallLoad> walls;      // one per SimulationSetup::bodies where SimulationSetup::measure_walls
 };
 
 struct SolveReport {

@@ -16,7 +16,7 @@
 // stresses are equal; it is eliminated, so that their viscosities with a have the harmonic mean.
 #pragma once
 
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 

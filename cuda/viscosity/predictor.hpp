@@ -2,7 +2,7 @@
 // implicit viscous step, which need the same distances.
 #pragma once
 
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 #include "viscosity/linear_system.hpp"
 
 namespace slagflow {

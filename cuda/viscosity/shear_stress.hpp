@@ -1,7 +1,7 @@
 // The viscous stress that each particle bears.
 #pragma once
 
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 

@@ -1,7 +1,7 @@
 // The pressure that a wall particle shows its neighbours.
 #pragma once
 
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fluid/lane_math.hpp"
-#include "pressure/density.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 
