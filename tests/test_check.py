@@ -1,0 +1,48 @@
+"""Tests of scripts/check: each makes a small project that breaks a rule. With a test's name as argument only that one is
+run."""
+
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parent.parent
+
+
+def check(sources):
+    """What the rules say of a project with these texts by path."""
+    with tempfile.TemporaryDirectory() as folder:
+        top = Path(folder)
+        for script in ("scripts/check", "scripts/toolchain"):
+            sources = {**sources, script: (PROJECT / script).read_text()}
+        for name, text in sources.items():
+            (top / name).parent.mkdir(parents=True, exist_ok=True)
+            (top / name).write_text(text)
+        return subprocess.run(["bash", top / "scripts/check"], capture_output=True, text=True).stdout
+
+
+class Check(unittest.TestCase):
+    rooms = "includes run downwards, from room to room"
+
+    def test_includes_downwards_pass(self):
+        said = check({"cuda/pressure/a.hpp": '#include "fluid/b.hpp"\n#include "pressure/c.hpp"\n',
+                      "host/run/a.hpp": '#include "fluid/b.hpp"\n#include "host/case/c.hpp"\n#include "version.hpp"\n'})
+        self.assertIn(f"pass  {self.rooms}\n", said)
+
+    def test_an_include_upwards_fails(self):
+        said = check({"cuda/pressure/a.hpp": '#include "simulation/b.hpp"\n'})
+        self.assertIn(f"FAIL  {self.rooms}\n        cuda/pressure/a.hpp:1:", said)
+        said = check({"host/case/a.hpp": '#include "host/run/b.hpp"\n'})
+        self.assertIn(f"FAIL  {self.rooms}\n        host/case/a.hpp:1:", said)
+
+    def test_a_file_in_no_room_fails(self):
+        said = check({"cuda/a.hpp": "int a();\n"})
+        self.assertIn(f"FAIL  {self.rooms}\n        cuda/a.hpp (in no room)\n", said)
+
+    def test_an_include_that_names_no_room_fails(self):
+        said = check({"cuda/pressure/a.hpp": '#include "b.hpp"\n'})
+        self.assertIn(f"FAIL  {self.rooms}\n        cuda/pressure/a.hpp:1:", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
