@@ -1,66 +1,89 @@
 #include "host/rheometry/rheometry_fit.hpp"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_matrix.h>
-#include <gsl/gsl_multifit_nlinear.h>
-
+#define EIGEN_MPL2_ONLY       // nothing of Eigen under another licence
+#define EIGEN_DONT_VECTORIZE  // three unknowns; gcc 12 warns of its own AVX-512 header
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string>
+#include <unsupported/Eigen/NonLinearOptimization>
 
 #include "backend/error.hpp"
+#include "host/rheometry/rheometry_student.hpp"
 
 namespace slagflow {
 namespace {
 
-// GSL's default handler ends the program.
-class QuietGsl {
- public:
-  QuietGsl() : before_(gsl_set_error_handler_off()) {}
-  ~QuietGsl() { gsl_set_error_handler(before_); }
-  QuietGsl(const QuietGsl&) = delete;
-  QuietGsl& operator=(const QuietGsl&) = delete;
-
- private:
-  gsl_error_handler_t* before_;
-};
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 // Which parameters are free, and their order as unknowns: tau_B, ln K, ln n. The logarithms keep K and n
 // positive during the iteration; intervals are of K and n themselves.
 struct Unknowns {
   bool yield_stress, flow_index;
 
-  std::size_t count() const { return 1 + (yield_stress ? 1u : 0u) + (flow_index ? 1u : 0u); }
-  std::size_t consistency() const { return yield_stress ? 1 : 0; }
-  FlowParameters parameters(const gsl_vector* x) const {
+  Eigen::Index count() const { return 1 + (yield_stress ? 1 : 0) + (flow_index ? 1 : 0); }
+  Eigen::Index consistency() const { return yield_stress ? 1 : 0; }
+  FlowParameters parameters(const VectorXd& x) const {
     FlowParameters f;
-    if (yield_stress) f.yield_stress = gsl_vector_get(x, 0);
-    f.consistency = std::exp(gsl_vector_get(x, consistency()));
-    if (flow_index) f.flow_index = std::exp(gsl_vector_get(x, consistency() + 1));
+    if (yield_stress) f.yield_stress = x[0];
+    f.consistency = std::exp(x[consistency()]);
+    if (flow_index) f.flow_index = std::exp(x[consistency() + 1]);
     return f;
+  }
+  VectorXd vector(const FlowParameters& f) const {
+    VectorXd x(count());
+    if (yield_stress) x[0] = f.yield_stress;
+    x[consistency()] = std::log(f.consistency);
+    if (flow_index) x[consistency() + 1] = std::log(f.flow_index);
+    return x;
   }
 };
 
+// Of K in Pa s^n and of n.
+constexpr double most_consistency = 1e9, least_index = 0.02, most_index = 20;
+bool within_limits(const FlowParameters& f, double share) {
+  return f.consistency < share * most_consistency && f.consistency * most_consistency > 1 / share &&
+         f.flow_index < share * most_index && f.flow_index > least_index / share;
+}
+
+// What Eigen minimises: the squares of the residuals.
 struct Problem {
   const FlowCurve& curve;
   Unknowns unknowns;
   std::vector<double> error;  // of each stress [Pa], up to a factor
-};
 
-int residuals(const gsl_vector* x, void* data, gsl_vector* result) {
-  const Problem& problem = *static_cast<const Problem*>(data);
-  const FlowParameters f = problem.unknowns.parameters(x);
-  constexpr double most = 1e9;  // a wild trial: K in Pa s^n, or a flow index that overflows
-  if (!(f.consistency < most && f.consistency > 1 / most && f.flow_index < 20 && f.flow_index > 0.02))
-    return GSL_EDOM;
-  const std::vector<double> model = stresses(f, problem.curve.rate, problem.curve.cylinders);
-  for (std::size_t i = 0; i < model.size(); ++i)
-    gsl_vector_set(result, i, (model[i] - problem.curve.stress[i]) / problem.error[i]);
-  return GSL_SUCCESS;
-}
+  Eigen::Index values() const { return static_cast<Eigen::Index>(error.size()); }
+
+  // A trial out of the limits is far from the readings.
+  int operator()(const VectorXd& x, VectorXd& residuals) const {
+    constexpr double far = 1e9;
+    const FlowParameters f = unknowns.parameters(x);
+    residuals.setConstant(values(), far);
+    if (!within_limits(f, 1)) return 0;
+    const std::vector<double> model = stresses(f, curve.rate, curve.cylinders);
+    for (std::size_t i = 0; i < model.size(); ++i)
+      residuals[static_cast<Eigen::Index>(i)] = (model[i] - curve.stress[i]) / error[i];
+    return 0;
+  }
+
+  // Central differences, a cube root of the rounding error apart.
+  int df(const VectorXd& x, MatrixXd& jacobian) const {
+    constexpr double apart = 6e-6;
+    jacobian.resize(values(), x.size());
+    VectorXd above, below;
+    for (Eigen::Index k = 0; k < x.size(); ++k) {
+      const bool stress = unknowns.yield_stress && k == 0;
+      const double step = apart * (stress ? *std::max_element(curve.stress.begin(), curve.stress.end()) : 1);
+      VectorXd y = x;
+      y[k] = x[k] + step, (*this)(y, above);
+      y[k] = x[k] - step, (*this)(y, below);
+      jacobian.col(k) = (above - below) / (2 * step);
+    }
+    return 0;
+  }
+};
 
 std::vector<double> errors_of(const FlowCurve& curve, ErrorModel errors) {
   if (errors == ErrorModel::relative) return curve.stress;
@@ -83,59 +106,57 @@ FlowParameters first_guess(const FlowCurve& curve, const Unknowns& unknowns) {
   return {unknowns.yield_stress ? std::max(0.0, (y - slope * x) / n) : 0, slope, 1};
 }
 
-using Workspace = std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)>;
-using Matrix = std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)>;
-using Vector = std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)>;
-
 // A minimum that was found: where, sum of the squared residuals, covariance up to the factor s^2.
 struct Minimum {
-  std::vector<double> x;
+  VectorXd x;
   double sum = std::numeric_limits<double>::infinity();
-  std::vector<double> covariance;  // diagonal
+  VectorXd covariance;  // diagonal of (J^T J)^-1
+  bool inside = false;  // not where the limits of K and n are: the readings decide on the curve
+
+  bool found() const { return x.size() > 0; }
+  bool better_than(const Minimum& other) const { return inside != other.inside ? inside : sum < other.sum; }
 };
 
-Minimum minimise(Problem& problem, const FlowParameters& guess) {
-  const std::size_t n = problem.curve.rate.size(), p = problem.unknowns.count();
-  gsl_multifit_nlinear_parameters settings = gsl_multifit_nlinear_default_parameters();
-  settings.fdtype = GSL_MULTIFIT_NLINEAR_CTRDIFF;
-  const Workspace work(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &settings, n, p),
-                       &gsl_multifit_nlinear_free);
-  const Vector start(gsl_vector_alloc(p), &gsl_vector_free);
-  if (problem.unknowns.yield_stress) gsl_vector_set(start.get(), 0, guess.yield_stress);
-  gsl_vector_set(start.get(), problem.unknowns.consistency(), std::log(guess.consistency));
-  if (problem.unknowns.flow_index)
-    gsl_vector_set(start.get(), problem.unknowns.consistency() + 1, std::log(guess.flow_index));
-  gsl_multifit_nlinear_fdf system{};
-  system.f = &residuals, system.n = n, system.p = p, system.params = &problem;
+// With J P = Q R it is P R^-1 R^-T P^T.
+VectorXd covariance_diagonal(const MatrixXd& jacobian) {
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(jacobian);
+  const Eigen::Index p = jacobian.cols();
+  const MatrixXd upper = qr.matrixR().topLeftCorner(p, p);
+  const MatrixXd inverse = upper.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(p, p));
+  return qr.colsPermutation() * inverse.rowwise().squaredNorm();
+}
+
+Minimum minimise(const Problem& problem, const FlowParameters& guess) {
+  Eigen::LevenbergMarquardt<const Problem> search(problem);
+  search.parameters.xtol = 1e-10;
+  search.parameters.ftol = 1e-15;
+  search.parameters.gtol = 1e-12;
+  search.parameters.maxfev = 500;
   Minimum found;
-  if (gsl_multifit_nlinear_init(start.get(), &system, work.get()) != GSL_SUCCESS) return found;
-  constexpr std::size_t most_iterations = 500;
-  int reason = 0;
-  const int status =
-      gsl_multifit_nlinear_driver(most_iterations, 1e-10, 1e-12, 0, nullptr, nullptr, &reason, work.get());
-  // No progress is the end where the start was the minimum, or the residuals are round-off.
-  if (status != GSL_SUCCESS && status != GSL_ENOPROG && reason != GSL_ENOPROG) return found;
-  const Matrix covariance(gsl_matrix_alloc(p, p), &gsl_matrix_free);
-  gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(work.get()), 0, covariance.get());
-  found.sum = 0;
-  const gsl_vector* r = gsl_multifit_nlinear_residual(work.get());
-  for (std::size_t i = 0; i < n; ++i) found.sum += gsl_vector_get(r, i) * gsl_vector_get(r, i);
-  for (std::size_t k = 0; k < p; ++k) {
-    found.x.push_back(gsl_vector_get(gsl_multifit_nlinear_position(work.get()), k));
-    found.covariance.push_back(gsl_matrix_get(covariance.get(), k, k));
-  }
+  VectorXd x = problem.unknowns.vector(guess);
+  const Eigen::LevenbergMarquardtSpace::Status status = search.minimize(x);
+  if (status == Eigen::LevenbergMarquardtSpace::ImproperInputParameters ||
+      status == Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation)
+    return found;
+  MatrixXd jacobian;
+  problem.df(x, jacobian);
+  found.covariance = covariance_diagonal(jacobian);
+  if (!found.covariance.allFinite()) return found;
+  found.x = x;
+  found.sum = search.fnorm * search.fnorm;
+  found.inside = within_limits(problem.unknowns.parameters(x), 0.99);
   return found;
 }
 
 // The best minimum from several starts: the sum of squares of a power law may have more than one.
-Minimum best_minimum(Problem& problem) {
+Minimum best_minimum(const Problem& problem) {
   const FlowParameters guess = first_guess(problem.curve, problem.unknowns);
   Minimum best = minimise(problem, guess);
   if (!problem.unknowns.flow_index) return best;
   for (const double n : {0.4, 0.7}) {
-    FlowParameters other{0.5 * guess.yield_stress, guess.consistency, n};
+    const FlowParameters other{0.5 * guess.yield_stress, guess.consistency, n};
     Minimum found = minimise(problem, other);
-    if (found.sum < best.sum) best = std::move(found);
+    if (found.better_than(best)) best = std::move(found);
   }
   return best;
 }
@@ -144,19 +165,21 @@ Estimate estimate(double value, double deviation, double t) {
   return {value, value - t * deviation, value + t * deviation};
 }
 
+// Throws Error when there is none within the limits; one with a yield stress below 0 is not asked to be, as
+// it is fitted again.
 FlowFit fit_with(const Unknowns& unknowns, FlowModel model, const FlowCurve& curve, ErrorModel errors) {
-  Problem problem{curve, unknowns, errors_of(curve, errors)};
+  const Problem problem{curve, unknowns, errors_of(curve, errors)};
   const Minimum found = best_minimum(problem);
-  if (found.x.empty())
+  if (!found.found() || (!found.inside && !(unknowns.yield_stress && found.x[0] < 0)))
     throw Error(std::string("the fit of the ") + name_of(model) + " model did not converge");
   const auto n = static_cast<double>(curve.rate.size()), p = static_cast<double>(unknowns.count());
-  const double t = gsl_cdf_tdist_Pinv(0.975, n - p), s = std::sqrt(found.sum / (n - p));
-  const auto deviation = [&](std::size_t k) { return s * std::sqrt(found.covariance[k]); };
+  const double t = student_95(static_cast<int>(n - p)), s = std::sqrt(found.sum / (n - p));
+  const auto deviation = [&](Eigen::Index k) { return s * std::sqrt(found.covariance[k]); };
 
   FlowFit result;
   result.model = model;
   result.free_parameters = static_cast<int>(unknowns.count());
-  const std::size_t k = unknowns.consistency();
+  const Eigen::Index k = unknowns.consistency();
   if (unknowns.yield_stress) result.yield_stress = estimate(found.x[0], deviation(0), t);
   const double consistency = std::exp(found.x[k]);
   result.consistency = estimate(consistency, consistency * deviation(k), t);
@@ -189,7 +212,6 @@ FlowFit fit(FlowModel model, const FlowCurve& curve, ErrorModel errors) {
   if (curve.rate.size() < static_cast<std::size_t>(points_needed(model)))
     throw InputError(std::to_string(curve.rate.size()) + " points are too few for the " + name_of(model) +
                      " model: allowed: at least " + std::to_string(points_needed(model)));
-  const QuietGsl quiet;
   const bool power_law = model == FlowModel::herschel_bulkley;
   FlowFit free = fit_with({model != FlowModel::newtonian, power_law}, model, curve, errors);
   if (model == FlowModel::newtonian || free.yield_stress.value > 0) return free;

@@ -5,6 +5,7 @@
 
 #include "backend/error.hpp"
 #include "host/rheometry/rheometry_fit.hpp"
+#include "host/rheometry/rheometry_student.hpp"
 
 namespace slagflow {
 namespace {
@@ -204,6 +205,33 @@ TEST(RheometryFit, HoldsANegativeYieldStressAtZero) {
   EXPECT_TRUE(found.at_zero_yield);
   EXPECT_EQ(found.yield_stress.value, 0);
   EXPECT_EQ(found.free_parameters, 1);
+}
+
+// Among many noisy curves of a power law there are some that are best at a yield stress far below 0 and a
+// flow index of nearly 0: the model of least index that is allowed is then no fit, one without a yield stress
+// is.
+TEST(RheometryFit, HoldsTheYieldStressAtZeroWhereTheFreeFitRunsAway) {
+  const FlowCurve logarithm{{1, 2, 4, 8, 16, 32, 64}, {1, 1.2, 1.4, 1.6, 1.8, 2, 2.2}, {}};
+  const FlowFit found = fit(FlowModel::herschel_bulkley, logarithm, ErrorModel::absolute);
+  EXPECT_TRUE(found.at_zero_yield);
+  EXPECT_NEAR(found.flow_index.value, 0.18, 0.03);  // ln(2.2)/ln(64) = 0.19 between the ends
+}
+
+TEST(RheometryFit, RefusesParametersThatTheReadingsDoNotDecideOn) {
+  const FlowCurve flat{spread(1, 10, 8), {3, 3, 3, 3, 3, 3, 3, 3}, {}};
+  EXPECT_THROW(fit(FlowModel::bingham, flat, ErrorModel::absolute), Error);
+  EXPECT_EQ(fit_all(flat, ErrorModel::absolute).back().model, FlowModel::newtonian);
+}
+
+// Tabulated, to the digits of the table: Abramowitz and Stegun, table 26.10.
+TEST(RheometryFit, StudentsDistributionIsTheTabulatedOne) {
+  EXPECT_NEAR(student_95(1), 12.706, 5e-4);
+  EXPECT_NEAR(student_95(2), 4.303, 5e-4);
+  EXPECT_NEAR(student_95(3), 3.182, 5e-4);
+  EXPECT_NEAR(student_95(8), 2.306004135, 1e-8);
+  EXPECT_NEAR(student_95(30), 2.042, 5e-4);
+  EXPECT_NEAR(student_95(120), 1.980, 5e-4);
+  EXPECT_NEAR(student_95(100000), 1.95996, 5e-5);  // of the normal distribution
 }
 
 TEST(RheometryFit, RefusesTooFewPoints) {
