@@ -15,6 +15,8 @@ class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
+  using Element = T;
+
   Buffer(Context& context, const char* name, Offset size = 0) : context_(&context), name_(name) {
     resize(size);
   }
@@ -39,21 +41,23 @@ class Buffer {
     context_->arrange_anew();
   }
 
-  // Contents are lost when the capacity grows; it grows with a margin so that growth is rare.
-  void resize(Offset size, Offset margin_percent = 0) {
-    if (size > capacity_) {
-      context_->synchronize();
-      context_->release(data_, bytes(capacity_));
-      data_ = nullptr, size_ = capacity_ = 0;
-      const Offset wanted = size + size * margin_percent / 100;
-      data_ = static_cast<T*>(context_->allocate(bytes(wanted), name_));
-      capacity_ = wanted;
-    }
-    if (size != size_) context_->arrange_anew();
-    size_ = size;
+  // Contents are lost when the capacity grows. Where there is any it grows by a quarter at least, so that few
+  // of the particles that come one by one take memory; or else with the margin that is given.
+  void resize(Offset size) { resize_within(size, capacity_ + capacity_ / 4); }
+  void resize(Offset size, Offset margin_percent) { resize_within(size, size + size * margin_percent / 100); }
+
+  // Takes memory for so many elements; contents stay.
+  void reserve(Offset capacity) {
+    if (capacity <= capacity_) return;
+    Buffer roomy(*context_, name_, capacity);
+    roomy.resize(size_);
+    context_->copy_on_device(roomy.data_, data_, bytes(size_));
+    context_->synchronize();
+    swap(roomy);
   }
 
   Offset size() const { return size_; }
+  Offset capacity() const { return capacity_; }
   Span<T> span() { return {data_, size_}; }
   Span<const T> span() const { return {data_, size_}; }
 
@@ -71,6 +75,18 @@ class Buffer {
   }
 
  private:
+  void resize_within(Offset size, Offset room) {
+    if (size > capacity_) {
+      const Offset wanted = size > room ? size : room;
+      context_->synchronize();
+      context_->release(data_, bytes(capacity_));
+      data_ = nullptr, size_ = capacity_ = 0;
+      data_ = static_cast<T*>(context_->allocate(bytes(wanted), name_));
+      capacity_ = wanted;
+    }
+    if (size != size_) context_->arrange_anew();
+    size_ = size;
+  }
   static std::size_t bytes(Offset count) { return static_cast<std::size_t>(count) * sizeof(T); }
 
   Context* context_;

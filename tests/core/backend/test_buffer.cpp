@@ -52,7 +52,23 @@ TEST(Buffer, GrowsWithAMarginSoThatGrowthIsRare) {
   b.resize(1100);
   EXPECT_EQ(b.span().data, place);
   b.resize(1101);
-  EXPECT_EQ(context.allocated(), 1101 * sizeof(double));
+  EXPECT_EQ(context.allocated(), 1375 * sizeof(double)) << "a quarter more than there was";
+  b.resize(2000);
+  EXPECT_EQ(context.allocated(), 2000 * sizeof(double)) << "as much as is asked for where that is more";
+}
+
+TEST(Buffer, ReservingKeepsContents) {
+  Context context;
+  Buffer<int> b(context, "numbers");
+  b.upload({1, 2, 3});
+  b.reserve(8);
+  EXPECT_EQ(on_host(b), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(context.allocated(), 8 * sizeof(int));
+  const int* place = b.span().data;
+  b.resize(8);
+  b.reserve(4);
+  EXPECT_EQ(b.span().data, place);
+  EXPECT_EQ(b.capacity(), 8);
 }
 
 TEST(Buffer, MoveTakesTheMemoryAlong) {
