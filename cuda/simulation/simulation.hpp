@@ -29,6 +29,20 @@ struct FluidSnapshot {
   std::vector<std::int64_t> id;          // constant through the run
 };
 
+// Calls v(name, unit, meaning, values) for each array besides the positions, by the name it has in files.
+template <class Visitor>
+void describe(Visitor& v, const FluidSnapshot& s) {
+  v("Velocity", "m/s", "velocity", s.velocity);
+  v("Pressure", "Pa", "pressure", s.pressure);
+  v("Density", "kg/m^3", "density", s.density);
+  v("Viscosity", "Pa s", "dynamic viscosity", s.viscosity);
+  v("ShearRate", "1/s", "shear rate", s.shear_rate);
+  v("ShearStress", "Pa", "magnitude of the viscous stress", s.shear_stress);
+  v("Yielded", "1", "1 where the stress exceeds the yield stress", s.yielded);
+  v("Fluid", "1", "index of the fluid, in the order of the case", s.fluid);
+  v("ParticleId", "1", "number of the particle, constant through the run", s.id);
+}
+
 struct WallSnapshot {
   double time = 0;
   bool moves = false;              // whether positions change, or particles vanish, during the run
@@ -36,6 +50,12 @@ struct WallSnapshot {
   std::vector<float> pressure;     // [Pa]
   std::vector<std::uint8_t> body;  // index of the body
 };
+
+template <class Visitor>
+void describe(Visitor& v, const WallSnapshot& s) {
+  v("Pressure", "Pa", "pressure", s.pressure);
+  v("Wall", "1", "index of the wall, in the order of the case", s.body);
+}
 
 enum class Reading { fluid, fluid_and_walls };
 

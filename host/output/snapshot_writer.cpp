@@ -8,22 +8,22 @@
 namespace slagflow {
 namespace {
 
-std::vector<ArrayInfo> particle_arrays() {
-  return {{"Velocity", "m/s", "velocity", ArrayType::float32, 3},
-          {"Pressure", "Pa", "pressure", ArrayType::float32, 1},
-          {"Density", "kg/m^3", "density", ArrayType::float32, 1},
-          {"Viscosity", "Pa s", "dynamic viscosity", ArrayType::float32, 1},
-          {"ShearRate", "1/s", "shear rate", ArrayType::float32, 1},
-          {"ShearStress", "Pa", "magnitude of the viscous stress", ArrayType::float32, 1},
-          {"Yielded", "1", "1 where the stress exceeds the yield stress", ArrayType::uint8, 1},
-          {"Fluid", "1", "index of the fluid, in the order of the case", ArrayType::uint8, 1},
-          {"ParticleId", "1", "number of the particle, constant through the run", ArrayType::int64, 1}};
-}
+// What the arrays of a snapshot are, and what they hold.
+struct Arrays {
+  std::vector<ArrayInfo> infos;
+  std::vector<ArrayView> views;
 
-std::vector<ArrayInfo> wall_arrays() {
-  return {{"Pressure", "Pa", "pressure", ArrayType::float32, 1},
-          {"Wall", "1", "index of the wall, in the order of the case", ArrayType::uint8, 1}};
-}
+  template <class Snapshot>
+  explicit Arrays(const Snapshot& snapshot) {
+    describe(*this, snapshot);
+  }
+  template <class Values>
+  void operator()(const char* name, const char* unit, const char* meaning, const Values& values) {
+    const ArrayView view(values);
+    infos.push_back({name, unit, meaning, view.type, view.components});
+    views.push_back(view);
+  }
+};
 
 void to_float(const std::vector<Vec3d>& from, std::vector<Vector3<float>>& to) {
   to.resize(from.size());
@@ -35,8 +35,8 @@ void to_float(const std::vector<Vec3d>& from, std::vector<Vector3<float>>& to) {
 }  // namespace
 
 SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes)
-    : particles_(folder + "/particles.vtkhdf", particle_arrays()) {
-  if (sizes.walls > 0) walls_.emplace(folder + "/walls.vtkhdf", wall_arrays());
+    : particles_(folder + "/particles.vtkhdf", Arrays(FluidSnapshot{}).infos) {
+  if (sizes.walls > 0) walls_.emplace(folder + "/walls.vtkhdf", Arrays(WallSnapshot{}).infos);
 }
 
 SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes,
@@ -145,14 +145,11 @@ void SnapshotWriter::work() {
 void SnapshotWriter::append(const Snapshot& snapshot) {
   const FluidSnapshot& p = snapshot.particles;
   to_float(p.position, positions_);
-  particles_.append({p.time,
-                     positions_,
-                     {p.velocity, p.pressure, p.density, p.viscosity, p.shear_rate, p.shear_stress, p.yielded,
-                      p.fluid, p.id}});
+  particles_.append({p.time, positions_, Arrays(p).views});
   if (!walls_) return;
   const WallSnapshot& w = snapshot.walls;
   to_float(w.position, positions_);
-  const PointStep step{w.time, positions_, {w.pressure, w.body}};
+  const PointStep step{w.time, positions_, Arrays(w).views};
   w.moves || !walls_begun_ ? walls_->append(step) : walls_->append_at_same_points(step);
   walls_begun_ = true;
 }
