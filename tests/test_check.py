@@ -43,6 +43,26 @@ class Check(unittest.TestCase):
         said = check({"cuda/pressure/a.hpp": '#include "b.hpp"\n'})
         self.assertIn(f"FAIL  {self.rooms}\n        cuda/pressure/a.hpp:1:", said)
 
+    arrays = "each particle array is declared once"
+
+    def test_arrays_of_different_names_pass(self):
+        said = check({"cuda/fluid/particles.hpp": """ParticleArray<Real> one{*this, {"one", "K", "first", Fate::saved}};
+            ParticleArray<Vec3d> other{
+                *this, {"other", "K", "second", Fate::saved}};\n"""})
+        self.assertIn(f"pass  {self.arrays}\n", said)
+
+    def test_an_array_declared_twice_fails(self):
+        said = check({"cuda/fluid/particles.hpp": """ParticleArray<Real> one{*this, {"one", "K", "first", Fate::saved}};
+            ParticleArray<Vec3d> other{
+                *this,
+                {"one", "K", "second", Fate::saved}};\n"""})
+        self.assertIn(f'FAIL  {self.arrays}\n        "one" is declared more than once\n', said)
+
+    def test_an_array_of_a_part_may_not_have_the_name_of_another(self):
+        said = check({"cuda/fluid/particles.hpp": 'ParticleArray<Real> one{*this, {"one", "K", "", Fate::saved}};\n',
+                      "cuda/walls/forces.hpp": 'v.array("one", impulse_);\n'})
+        self.assertIn(f'FAIL  {self.arrays}\n        "one" is declared more than once\n', said)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -3,86 +3,69 @@
 
 #include <cstdint>
 
-#include "backend/buffer.hpp"
-#include "fluid/math.hpp"
+#include "fluid/particle_arrays.hpp"
 
 namespace slagflow {
 
 // Fluid particles, sorted by cell, then by id.
-struct FluidArrays {
-  explicit FluidArrays(Context& c)
-      : position(c, "fluid positions"),
-        place(c, "fluid places"),
-        motion(c, "fluid motions"),
-        increment(c, "fluid viscous increments"),
-        last_increment(c, "fluid viscous increments"),
-        by_pressure(c, "fluid pressure accelerations"),
-        packing(c, "fluid packings"),
-        id(c, "fluid ids"),
-        fluid(c, "fluid kinds"),
-        state(c, "fluid states"),
-        pressure(c, "fluid pressures"),
-        shear_rate(c, "fluid shear rates"),
-        contact(c, "contact pressures") {}
+struct FluidArrays : ParticleArrays {
+  using ParticleArrays::ParticleArrays;
 
-  Index count = 0;
-  Buffer<Vec3d> position;       // [m] relative to the domain's lower corner, fp64: slow creep is kept
-  Buffer<Quad> place;           // xyz: the same rounded [m], w: volume [m^3]
-  Buffer<Quad> motion;          // xyz: velocity [m/s], w: density - rest density [kg/m^3]
-  Buffer<Quad> increment;       // xyz: first guess of what the next viscous solve adds to the velocity [m/s]
-  Buffer<Quad> last_increment;  // xyz: what the last one added [m/s]
-  Buffer<Quad>
-      by_pressure;       // xyz: force per volume by pressure in the last step [N/m^3], w: see predictor.hpp
-  Buffer<Real> packing;  // density at the start over that at rest
-  Buffer<Index> id;
-  Buffer<std::uint8_t> fluid;  // index of the fluid
-  // Set anew each step:
-  Buffer<Quad> state;       // x: pressure [Pa], y: dynamic viscosity [Pa s], z: volume [m^3], w: mass [kg]
-  Buffer<Real> pressure;    // [Pa]
-  Buffer<Real> shear_rate;  // [1/s]
-  Buffer<Real> contact;     // [Pa] the least pressure towards walls (walls/contact.hpp)
-
-  void resize(Index n) {
-    count = n;
-    position.resize(n), place.resize(n), motion.resize(n), increment.resize(n), last_increment.resize(n),
-        by_pressure.resize(n), packing.resize(n);
-    id.resize(n), fluid.resize(n), state.resize(n), pressure.resize(n), shear_rate.resize(n);
-    contact.resize(n);
-  }
+  static constexpr Fate kept = Fate::sorted | Fate::saved;
+  ParticleArray<Vec3d> position{
+      *this,
+      {"position", "m", "from the domain's lower corner, in fp64: slow creep is kept", kept | Fate::shown}};
+  ParticleArray<Quad> place{*this, {"place", "m, m^3", "xyz: the same rounded, w: volume", kept}};
+  ParticleArray<Quad> motion{
+      *this, {"motion", "m/s, kg/m^3", "xyz: velocity, w: density - rest density", kept | Fate::shown}};
+  ParticleArray<Quad> increment{
+      *this,
+      {"increment", "m/s", "xyz: first guess of what the next viscous solve adds to the velocity", kept}};
+  ParticleArray<Quad> last_increment{*this, {"last_increment", "m/s", "xyz: what the last one added", kept}};
+  ParticleArray<Quad> by_pressure{
+      *this,
+      {"by_pressure", "N/m^3, J",
+       "xyz: force per volume by pressure in the last step, w: energy (predictor.hpp)", kept}};
+  ParticleArray<Real> packing{*this, {"packing", "1", "density at the start over that at rest", kept}};
+  ParticleArray<Index> id{
+      *this, {"id", "1", "number of the particle, constant through the run", kept | Fate::shown}};
+  ParticleArray<std::uint8_t> fluid{*this, {"fluid", "1", "index of the fluid", kept | Fate::shown}};
+  // Set anew in each step; what the last one left goes into snapshots.
+  ParticleArray<Quad> state{
+      *this, {"state", "Pa, Pa s, m^3, kg", "pressure, dynamic viscosity, volume, mass", kept | Fate::shown}};
+  ParticleArray<Real> pressure{*this, {"pressure", "Pa", "pressure", kept | Fate::shown}};
+  ParticleArray<Real> shear_rate{*this, {"shear_rate", "1/s", "shear rate", kept | Fate::shown}};
+  ParticleArray<Real> contact{
+      *this, {"contact", "Pa", "the least pressure towards walls (walls/contact.hpp)", Fate::set_anew}};
 };
 
-// Wall particles, sorted by cell.
-struct WallArrays {
-  explicit WallArrays(Context& c)
-      : place(c, "wall places"),
-        normal(c, "wall normals"),
-        back(c, "wall back faces"),
-        velocity(c, "wall velocities"),
-        acceleration(c, "wall accelerations"),
-        moved(c, "wall displacements"),
-        pressure(c, "wall pressures"),
-        tension_limit(c, "tension limits of walls"),
-        id(c, "wall ids") {}
+// Wall particles, sorted by cell. Where they are follows from the time.
+struct WallArrays : ParticleArrays {
+  explicit WallArrays(Context& c) : ParticleArrays(c), tension_limit(c, "tension limits of walls") {}
 
-  Index count = 0;
-  Buffer<Quad>
-      place;  // xyz: position [m] relative to the domain's lower corner, w: 1 in a wall that vanished
-  Buffer<Quad> normal;    // xyz: unit normal into the open, w: depth below the surface [m]
-  Buffer<Quad> back;      // the same for the opposite face of a thin plate, or w = 0
-  Buffer<Quad> velocity;  // xyz: velocity of the surface in this step [m/s], w: slip length [m], 0 no slip, <
-                          // 0 free slip
+  ParticleArray<Quad> place{
+      *this,
+      {"wall_place", "m, 1", "xyz: from the domain's lower corner, w: 1 in a wall that vanished",
+       Fate::sorted}};
+  ParticleArray<Quad> normal{
+      *this,
+      {"wall_normal", "1, m", "xyz: unit normal into the open, w: depth below the surface", Fate::sorted}};
+  ParticleArray<Quad> back{
+      *this, {"wall_back", "1, m", "the same for the opposite face of a thin plate, or w = 0", Fate::sorted}};
+  ParticleArray<Quad> velocity{
+      *this,
+      {"wall_velocity", "m/s, m",
+       "xyz: of the surface in this step, w: slip length, 0 no slip, < 0 free slip", Fate::sorted}};
   // Empty where no wall ever moves:
-  Buffer<Quad> acceleration;   // xyz: of the wall's material [m/s^2]
-  Buffer<Quad> moved;          // xyz: displacement in the last step [m]
-  Buffer<Real> pressure;       // [Pa]
-  Buffer<Real> tension_limit;  // [Pa], by id; empty where all walls have the fluid's
-  Buffer<Index> id;
+  ParticleArray<Quad> acceleration{
+      *this, {"wall_acceleration", "m/s^2", "xyz: of the wall's material", Fate::sorted | Fate::optional}};
+  ParticleArray<Quad> moved{
+      *this, {"wall_moved", "m", "xyz: displacement in the last step", Fate::sorted | Fate::optional}};
+  ParticleArray<Real> pressure{*this,
+                               {"wall_pressure", "Pa", "pressure", Fate::sorted | Fate::saved | Fate::shown}};
+  ParticleArray<Index> id{*this, {"wall_id", "1", "number of the particle", Fate::sorted | Fate::shown}};
 
-  void resize(Index n) {
-    count = n;
-    if (acceleration.size() > 0) acceleration.resize(n), moved.resize(n);
-    place.resize(n), normal.resize(n), back.resize(n), velocity.resize(n), pressure.resize(n), id.resize(n);
-  }
+  Buffer<Real> tension_limit;  // [Pa], by id; empty where all walls have the fluid's
 };
 
 struct FluidView {

@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "backend/launch.hpp"
 #include "neighbours/ordering.hpp"
 
@@ -96,24 +98,25 @@ Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic
       spare_key_(c, "sort keys"),
       order_(c, "sort order"),
       spare_order_(c, "sort order"),
-      spare_index_(c, "sort spare"),
       exit_(c, "exits"),
-      spare_kind_(c, "sort spare"),
       flag_(c, "exit flags"),
-      spare_position_(c, "sort spare"),
-      spare_quad_(c, "sort spare"),
-      spare_real_(c, "sort spare") {}
+      spare_(Buffer<Vec3d>(c, "sort spare"), Buffer<Quad>(c, "sort spare"), Buffer<Real>(c, "sort spare"),
+             Buffer<Index>(c, "sort spare"), Buffer<std::uint8_t>(c, "sort spare")) {}
 
 void Ordering::sort_keys(Index count) {
   if (sort_needs_scratch) spare_key_.resize(count), spare_order_.resize(count);
   sort_by_key(context_, key_.span(), order_.span(), {spare_key_.span(), spare_order_.span()}, 64);
 }
 
-template <class T>
-void Ordering::reorder(Buffer<T>& values, Buffer<T>& spare, Index count) {
-  spare.resize(values.size());
-  launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
-  values.swap(spare);
+void Ordering::reorder(const ParticleArrays& arrays, Index count) {
+  arrays.each(Fate::sorted, [&](auto& values) {
+    using T = typename std::decay_t<decltype(values)>::Element;
+    auto& spare = std::get<Buffer<T>>(spare_);
+    spare.reserve(arrays.capacity());
+    spare.resize(values.size());
+    launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
+    values.swap(spare);
+  });
 }
 
 Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed) {
@@ -145,18 +148,7 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
                   exit_.span()});
   const Index left = drop(f, departed);
   sort_keys(n);
-  reorder(f.position, spare_position_, n);
-  reorder(f.place, spare_quad_, n);
-  reorder(f.motion, spare_quad_, n);
-  reorder(f.increment, spare_quad_, n);
-  reorder(f.last_increment, spare_quad_, n);
-  reorder(f.by_pressure, spare_quad_, n);
-  reorder(f.state, spare_quad_, n);
-  reorder(f.id, spare_index_, n);
-  reorder(f.fluid, spare_kind_, n);
-  reorder(f.packing, spare_real_, n);
-  reorder(f.pressure, spare_real_, n);
-  reorder(f.shear_rate, spare_real_, n);
+  reorder(f, n);
   f.resize(left);
   fluid_cells_.find(context_, grid_, key_.span(), left);
 }
@@ -175,13 +167,7 @@ void Ordering::sort(WallArrays& w) {
          WallKey{{grid_, w.place.span(), w.id.span(), key_.span(), order_.span()}, flag_.span()});
   const auto left = n - static_cast<Index>(sum(context_, flag_.span()));
   sort_keys(n);
-  reorder(w.place, spare_quad_, n);
-  reorder(w.normal, spare_quad_, n);
-  reorder(w.back, spare_quad_, n);
-  reorder(w.velocity, spare_quad_, n);
-  if (w.acceleration.size() > 0) reorder(w.acceleration, spare_quad_, n), reorder(w.moved, spare_quad_, n);
-  reorder(w.id, spare_index_, n);
-  reorder(w.pressure, spare_real_, n);
+  reorder(w, n);
   w.resize(left);
   wall_cells_.find(context_, grid_, key_.span(), left);
 }

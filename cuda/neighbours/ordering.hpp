@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 
 #include "backend/primitives.hpp"
 #include "fluid/particles.hpp"
@@ -39,8 +40,8 @@ class Ordering {
  private:
   // Sorts key_ and order_, both of `count` elements.
   void sort_keys(Index count);
-  template <class T>
-  void reorder(Buffer<T>& values, Buffer<T>& spare, Index count);
+  // All arrays as order_ says, of `count` particles.
+  void reorder(const ParticleArrays&, Index count);
   Index drop(const FluidArrays&, DepartureCounts& departed);
 
   Context& context_;
@@ -49,12 +50,11 @@ class Ordering {
   std::array<bool, 3> periodic_;
   CellRanges fluid_cells_, wall_cells_;
   Buffer<std::uint64_t> key_, spare_key_;
-  Buffer<Index> order_, spare_order_, spare_index_;
-  Buffer<std::uint8_t> exit_, spare_kind_;
+  Buffer<Index> order_, spare_order_;
+  Buffer<std::uint8_t> exit_;
   Buffer<double> flag_;
-  Buffer<Vec3d> spare_position_;
-  Buffer<Quad> spare_quad_;
-  Buffer<Real> spare_real_;
+  // Where reordered values go; takes the place of the array that they come from.
+  std::tuple<Buffer<Vec3d>, Buffer<Quad>, Buffer<Real>, Buffer<Index>, Buffer<std::uint8_t>> spare_;
 };
 
 }  // namespace slagflow

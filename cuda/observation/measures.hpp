@@ -34,6 +34,11 @@ class PlaneCounters {
   std::vector<PlaneState> states(Context&, const FluidArrays&, Span<const Quad> before,
                                  DiagnosticScratch&) const;
 
+  template <class Visitor>
+  void save(Visitor& v) {
+    v.as_many("planes", records);
+  }
+
   std::vector<Record> records;
 
  private:

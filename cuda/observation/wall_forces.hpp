@@ -40,14 +40,17 @@ class WallForces {
   WallLoad load(std::size_t body);
   WallWork work();  // of all walls
 
-  // Of each wall particle, in the order of ids; what a checkpoint keeps.
+  // Of each wall particle, in the order of ids.
   struct Impulse {
     Vec3d pressure, viscous;                    // [N s]
     Vec3d pressure_torque, viscous_torque;      // [N m s] about the lower corner of the domain
     double work = 0;                            // [J]
     double viscous_work = 0, elastic_work = 0;  // [J] of it, see WallWork
   };
-  Buffer<Impulse>& impulses() { return impulse_; }
+  template <class Visitor>
+  void save(Visitor& v) {
+    v.as_many("wall_impulse", impulse_);
+  }
 
  private:
   Context& context_;

@@ -36,6 +36,14 @@ class Saver {
     if (!host.empty()) std::memcpy(saved.bytes.data(), host.data(), saved.bytes.size());
     state_.push_back(std::move(saved));
   }
+  template <class T>
+  void as_many(const char* name, Buffer<T>& buffer) {
+    array(name, buffer);
+  }
+  template <class T>
+  void as_many(const char* name, std::vector<T>& host) {
+    values(name, host);
+  }
 
  private:
   SavedState& state_;
@@ -65,22 +73,34 @@ class Restorer {
     }
     throw Error("checkpoint: array '" + std::string(name) + "' is missing");
   }
+  // What the case decides the number of.
+  template <class T>
+  void as_many(const char* name, Buffer<T>& buffer) {
+    const Offset size = buffer.size();
+    array(name, buffer);
+    require_fit(buffer.size() == size);
+  }
+  template <class T>
+  void as_many(const char* name, std::vector<T>& host) {
+    const std::size_t size = host.size();
+    values(name, host);
+    require_fit(host.size() == size);
+  }
+  static void require_fit(bool fits) {
+    if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
+  }
 
  private:
   const SavedState& state_;
 };
 
+// Each part says itself what of it goes into a checkpoint.
 template <class Visitor, class State>
 void visit_arrays(Visitor& v, State& s) {
-  FluidArrays& f = s.fluid;
-  v.array("position", f.position), v.array("place", f.place), v.array("motion", f.motion);
-  v.array("increment", f.increment), v.array("last_increment", f.last_increment),
-      v.array("by_pressure", f.by_pressure), v.array("packing", f.packing), v.array("id", f.id),
-      v.array("fluid", f.fluid);
-  v.array("state", f.state), v.array("pressure", f.pressure), v.array("shear_rate", f.shear_rate);
-  v.array("wall_pressure", s.wall.pressure), v.array("wall_impulse", s.wall_forces.impulses());
-  v.array("list_places", s.list_places);
-  v.values("departed", s.departed), v.values("planes", s.planes.records);
+  s.fluid.each(Fate::saved, [&](auto& array) { v.array(array.field.name, array); });
+  s.wall.each(Fate::saved, [&](auto& array) { v.as_many(array.field.name, array); });
+  s.wall_forces.save(v), s.planes.save(v), s.viscous.save(v);
+  v.array("list_places", s.list_places), v.as_many("departed", s.departed);
 }
 
 // What indices into other arrays are made of, and what the loop over the steps counts on. Anything else that
@@ -119,7 +139,6 @@ SavedState Simulation::save() const {
   SavedState result;
   Saver saver(result);
   visit_arrays(saver, s);
-  if (s.exact_yield()) s.viscous.exact_yield().visit_arrays(saver);
   std::vector<SavedNumbers> numbers{{s.time,
                                      s.dt,
                                      s.full_dt,
@@ -156,28 +175,18 @@ void Simulation::restore(const SavedState& saved) {
   restorer.values("numbers", numbers);
   if (numbers.size() != 1 || numbers[0].real_size != static_cast<std::int32_t>(sizeof(Real)))
     throw Error("checkpoint: it was written by a build of another precision");
-  const std::size_t kinds = s.departed.size();
   const SavedNumbers& v = numbers[0];
   require_possible(v);
   s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.last_dt = v.last_dt;
   s.displacement = v.displacement, s.taken = v.taken, s.given = v.given;
   s.capillary_work = v.capillary_work, s.list_time = v.list_time;
   s.restore_walls();
-  const Offset walls = s.wall.pressure.size(), impulses = s.wall_forces.impulses().size();
-  const std::size_t planes = s.planes.records.size();
   visit_arrays(restorer, s);
-  if (s.exact_yield()) s.viscous.exact_yield().visit_arrays(restorer);
   const Offset n = s.fluid.id.size();
-  const bool fits = s.fluid.position.size() == n && s.fluid.place.size() == n && s.fluid.motion.size() == n &&
-                    s.fluid.increment.size() == n && s.fluid.last_increment.size() == n &&
-                    s.fluid.by_pressure.size() == n && s.fluid.packing.size() == n &&
-                    s.fluid.fluid.size() == n && s.fluid.state.size() == n && s.fluid.pressure.size() == n &&
-                    s.fluid.shear_rate.size() == n && s.list_places.size() == n &&
-                    s.wall.pressure.size() == walls && s.departed.size() == kinds &&
-                    s.planes.records.size() == planes && s.wall_forces.impulses().size() == impulses;
-  if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
-  s.fluid.count = static_cast<Index>(n);
-  require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, kinds);
+  Restorer::require_fit(s.list_places.size() == n);
+  s.fluid.each(Fate::saved, [&](const auto& array) { Restorer::require_fit(array.size() == n); });
+  s.fluid.resize(static_cast<Index>(n));
+  require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, s.departed.size());
   s.steps = v.steps, s.builds = v.builds;
   s.solver = {v.solver_steps,     v.solver_iterations, v.max_iterations, v.worst_residual,
               v.yield_iterations, v.yield_unconverged, v.solver_retried};

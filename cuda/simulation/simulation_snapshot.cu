@@ -23,38 +23,30 @@ struct FlagYielded {
   }
 };
 
-// What is copied, in this order.
-enum class Part : std::size_t {
-  position,
-  motion,
-  state,
-  pressure,
-  shear_rate,
-  shear_stress,
-  id,
-  fluid,
-  flags,
-  wall_id,
-  wall_pressure
-};
-
-template <class T>
-SideCopy::Part all_of(const Buffer<T>& buffer) {
-  return {buffer.span().data, static_cast<std::size_t>(buffer.size()) * sizeof(T)};
-}
-
 }  // namespace
 
 struct StateTransfer::Data {
   SideCopy copy;
+  std::vector<SideCopy::Part> parts;
+  std::vector<const void*> buffers;       // whose contents the parts are
   const Simulation::State* of = nullptr;  // null: nothing is under way
   double time = 0;
   Reading what{};
   std::size_t fluid = 0, walls = 0;  // particles
 
   template <class T>
-  const T* part(Part which) const {
-    return static_cast<const T*>(copy.part(static_cast<std::size_t>(which)));
+  void add(const Buffer<T>& buffer) {
+    parts.push_back({buffer.span().data, static_cast<std::size_t>(buffer.size()) * sizeof(T)});
+    buffers.push_back(&buffer);
+  }
+  void add_shown(const ParticleArrays& arrays) {
+    arrays.each(Fate::shown, [&](const auto& array) { add(array); });
+  }
+  // What the buffer held when the copy was started.
+  template <class T>
+  const T* part(const Buffer<T>& buffer) const {
+    const auto at = std::find(buffers.begin(), buffers.end(), static_cast<const void*>(&buffer));
+    return static_cast<const T*>(copy.part(static_cast<std::size_t>(at - buffers.begin())));
   }
   void put(FluidSnapshot& out) const;
   void put(WallSnapshot& out) const;
@@ -82,10 +74,15 @@ void StateTransfer::finish(FluidSnapshot& fluid_out, WallSnapshot& walls_out) {
 
 void StateTransfer::Data::put(FluidSnapshot& out) const {
   const std::size_t n = fluid;
-  const auto* ids = part<Index>(Part::id);
+  const FluidArrays& f = of->fluid;
+  const Index* id = part(f.id);
+  const Vec3d* position = part(f.position);
+  const Quad *motion = part(f.motion), *state = part(f.state);
+  const Real *pressure = part(f.pressure), *shear_rate = part(f.shear_rate), *stress = part(of->scratch);
+  const std::uint8_t *kind = part(f.fluid), *yielded = part(of->yielded);
   std::vector<std::size_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = i;
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
 
   out.time = time;
   out.position.resize(n), out.velocity.resize(n), out.pressure.resize(n), out.density.resize(n);
@@ -93,27 +90,25 @@ void StateTransfer::Data::put(FluidSnapshot& out) const {
       out.fluid.resize(n), out.id.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = order[k];
-    const Quad m = part<Quad>(Part::motion)[i];
-    const std::uint8_t kind = part<std::uint8_t>(Part::fluid)[i];
-    out.position[k] = part<Vec3d>(Part::position)[i] + of->setup.domain.lower;
+    const Quad m = motion[i];
+    out.position[k] = position[i] + of->setup.domain.lower;
     out.velocity[k] = {static_cast<float>(m.x), static_cast<float>(m.y), static_cast<float>(m.z)};
-    out.pressure[k] = static_cast<float>(part<Real>(Part::pressure)[i]);
-    out.density[k] = static_cast<float>(of->setup.fluids[kind].rest_density + static_cast<double>(m.w));
-    out.viscosity[k] = static_cast<float>(part<Quad>(Part::state)[i].y);
-    out.shear_rate[k] = static_cast<float>(part<Real>(Part::shear_rate)[i]);
-    out.shear_stress[k] = static_cast<float>(part<Real>(Part::shear_stress)[i]);
-    out.yielded[k] = part<std::uint8_t>(Part::flags)[i];
-    out.fluid[k] = kind;
-    out.id[k] = ids[i];
+    out.pressure[k] = static_cast<float>(pressure[i]);
+    out.density[k] = static_cast<float>(of->setup.fluids[kind[i]].rest_density + static_cast<double>(m.w));
+    out.viscosity[k] = static_cast<float>(state[i].y);
+    out.shear_rate[k] = static_cast<float>(shear_rate[i]);
+    out.shear_stress[k] = static_cast<float>(stress[i]);
+    out.yielded[k] = yielded[i], out.fluid[k] = kind[i], out.id[k] = id[i];
   }
 }
 
 void StateTransfer::Data::put(WallSnapshot& out) const {
   const WallParticles& w = of->setup.walls;
+  const Index* id = part(of->wall.id);
+  const Real* pressure = part(of->wall.pressure);
   std::vector<float> by_id(w.body.size());
   for (std::size_t i = 0; i < walls; ++i)
-    by_id[static_cast<std::size_t>(part<Index>(Part::wall_id)[i])] =
-        static_cast<float>(part<Real>(Part::wall_pressure)[i]);
+    by_id[static_cast<std::size_t>(id[i])] = static_cast<float>(pressure[i]);
   out.time = time;
   out.moves = of->walls.any();
   out.position.clear(), out.pressure.clear(), out.body.clear();
@@ -133,17 +128,13 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
   launch(s.context, "yielded", n,
          FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.scratch.span(), s.yielded.span(),
                      s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{}});
-  const FluidArrays& f = s.fluid;
-  std::vector<SideCopy::Part> parts{all_of(f.position), all_of(f.motion),     all_of(f.state),
-                                    all_of(f.pressure), all_of(f.shear_rate), all_of(s.scratch),
-                                    all_of(f.id),       all_of(f.fluid),      all_of(s.yielded)};
   StateTransfer::Data& data = *transfer.data_;
-  data.what = what, data.time = s.time, data.fluid = static_cast<std::size_t>(n);
-  if (what == Reading::fluid_and_walls) {
-    parts.push_back(all_of(s.wall.id)), parts.push_back(all_of(s.wall.pressure));
-    data.walls = static_cast<std::size_t>(s.wall.id.size());
-  }
-  data.copy.start(s.side_stream, parts);
+  data.what = what, data.time = s.time;
+  data.fluid = static_cast<std::size_t>(n), data.walls = static_cast<std::size_t>(s.wall.count);
+  data.parts.clear(), data.buffers.clear();
+  data.add_shown(s.fluid), data.add(s.scratch), data.add(s.yielded);
+  if (what == Reading::fluid_and_walls) data.add_shown(s.wall);
+  data.copy.start(s.side_stream, data.parts);
   data.of = state_.get();
 }
 

@@ -76,7 +76,7 @@ class ExactYield {
 
   // p of a row's own pairs, p of the same pairs in the other particle's row, p of wall pairs, and f.
   template <class Visitor>
-  void visit_arrays(Visitor& v) {
+  void save(Visitor& v) {
     v.array("yield_own", own_), v.array("yield_other", other_), v.array("yield_wall", wall_);
     v.array("yield_held", held_);
     v.array("yield_augmentation", relative_);

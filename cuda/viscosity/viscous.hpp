@@ -48,6 +48,11 @@ class ViscousStep {
   // Sets the first guess to nothing.
   void forget(FluidArrays&);
 
+  template <class Visitor>
+  void save(Visitor& v) {
+    if (exact_yield_stress()) yield_.save(v);
+  }
+
   ExactYield& exact_yield() { return yield_; }
   Span<const Quad> velocity() const { return velocity_.span(); }
   // The share of the viscous forces that velocity() gives, theta or 0; and what gives the rest, until the

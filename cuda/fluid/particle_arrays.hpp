@@ -1,0 +1,100 @@
+// Arrays with one element a particle. Each is declared once, as a member of the arrays it belongs to: name,
+// type, unit, meaning, and what becomes of it. What is done to all of them walks along the list that this
+// makes.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "backend/buffer.hpp"
+#include "fluid/math.hpp"
+
+namespace slagflow {
+
+// What becomes of an array, besides being as long as there are particles.
+enum class Fate : unsigned {
+  set_anew = 0,  // in each step before it is read, so that it need not follow
+  sorted = 1,    // goes along when particles are sorted
+  saved = 2,     // goes into checkpoints
+  shown = 4,     // goes to the host for snapshots
+  optional = 8   // takes no memory in runs that never fill it
+};
+constexpr Fate operator|(Fate a, Fate b) {
+  return static_cast<Fate>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+constexpr bool has(Fate all, Fate one) {
+  return (static_cast<unsigned>(all) & static_cast<unsigned>(one)) != 0;
+}
+
+struct ParticleField {
+  const char* name;  // unique among all that is saved
+  const char* unit;
+  const char* meaning;
+  Fate fate;
+};
+
+template <class T>
+class ParticleArray;
+
+// As many particles as `count`, in memory for as many as `capacity`.
+class ParticleArrays {
+ public:
+  explicit ParticleArrays(Context& c) : context(c) {}
+  ParticleArrays(const ParticleArrays&) = delete;
+  ParticleArrays& operator=(const ParticleArrays&) = delete;
+
+  Context& context;
+  Index count = 0;
+  Index capacity() const { return capacity_; }
+
+  // What is there stays, up to the new count. Beyond the capacity that grows by a quarter at least, so that
+  // few of the times that particles come take memory.
+  void resize(Index n);
+
+  // Calls visit(array) for each, in the order of their declaration.
+  template <class Visit>
+  void each(Visit visit) const {
+    for (const Any& any : list_) std::visit([&](auto* array) { visit(*array); }, any);
+  }
+  // The same for those of a fate, where they hold anything.
+  template <class Visit>
+  void each(Fate fate, Visit visit) const {
+    each([&](auto& array) {
+      const bool absent = has(array.field.fate, Fate::optional) && array.size() == 0;
+      if (has(array.field.fate, fate) && !absent) visit(array);
+    });
+  }
+
+ private:
+  template <class T>
+  friend class ParticleArray;
+  using Any = std::variant<ParticleArray<Vec3d>*, ParticleArray<Quad>*, ParticleArray<Real>*,
+                           ParticleArray<Index>*, ParticleArray<std::uint8_t>*>;
+  std::vector<Any> list_;
+  Index capacity_ = 0;
+};
+
+template <class T>
+class ParticleArray : public Buffer<T> {
+ public:
+  ParticleArray(ParticleArrays& owner, const ParticleField& f) : Buffer<T>(owner.context, f.name), field(f) {
+    owner.list_.push_back(this);
+  }
+  ParticleArray(const ParticleArray&) = delete;
+  ParticleArray& operator=(const ParticleArray&) = delete;
+
+  const ParticleField field;
+};
+
+inline void ParticleArrays::resize(Index n) {
+  if (n > capacity_) capacity_ = larger(n, capacity_ + capacity_ / 4);
+  count = n;
+  each([&](auto& array) {
+    if (has(array.field.fate, Fate::optional) && array.size() == 0) return;
+    array.reserve(capacity_);
+    array.resize(n);
+  });
+}
+
+}  // namespace slagflow
