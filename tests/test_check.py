@@ -63,6 +63,11 @@ class Check(unittest.TestCase):
                       "cuda/walls/forces.hpp": 'v.array("one", impulse_);\n'})
         self.assertIn(f'FAIL  {self.arrays}\n        "one" is declared more than once\n', said)
 
+    def test_a_page_that_names_a_file_that_is_not_there_fails(self):
+        said = check({"cuda/README.md": "See `fluid/a.hpp` and `host/case/b.cpp`, `fluid/c.cu`.\n",
+                      "cuda/fluid/a.hpp": "int a();\n", "host/case/b.cpp": "int b();\n"})
+        self.assertIn("FAIL  cuda/README.md names files that are there\n        fluid/c.cu\npass", said)
+
 
 if __name__ == "__main__":
     unittest.main()
