@@ -39,6 +39,7 @@ void* Context::allocate(std::size_t bytes, const char* what) {
     throw Error("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
                 std::to_string(allocated_) + " are in use");
   allocated_ += bytes;
+  ++counts_.allocations;
   arrange_anew();
   return memory;
 }

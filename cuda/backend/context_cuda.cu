@@ -60,6 +60,7 @@ void* Context::allocate(std::size_t bytes, const char* what) {
   }
   check(status, what);
   allocated_ += bytes;
+  ++counts_.allocations;
   arrange_anew();
   return memory;
 }

@@ -20,6 +20,7 @@ struct DeviceCounts {
   std::int64_t launches = 0;        // of kernels, one by one
   std::int64_t graph_launches = 0;  // of graphs, and the kernels in them
   std::int64_t graph_kernels = 0;
+  std::int64_t allocations = 0;  // of memory
 };
 
 // What a device lacks to repeat launches on its own, by the CUDA versions of the toolkit and the driver as

@@ -112,7 +112,6 @@ void Ordering::reorder(const ParticleArrays& arrays, Index count) {
   arrays.each(Fate::sorted, [&](auto& values) {
     using T = typename std::decay_t<decltype(values)>::Element;
     auto& spare = std::get<Buffer<T>>(spare_);
-    spare.reserve(arrays.capacity());
     spare.resize(values.size());
     launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
     values.swap(spare);

@@ -67,13 +67,11 @@ TEST(ParticleArrays, GrowByAQuarterSoThatFewArrivalsTakeMemory) {
   Context context;
   FluidArrays fluid(context);
   fluid.resize(1000);
-  int growths = 0;
-  for (Index n = 1001; n <= 2000; ++n) {
-    const std::size_t before = context.allocated();
-    fluid.resize(n);
-    if (context.allocated() != before) ++growths;
-  }
-  EXPECT_EQ(growths, 4);
+  std::int64_t arrays = 0;
+  fluid.each([&](const auto&) { ++arrays; });
+  const std::int64_t before = context.counts().allocations;
+  for (Index n = 1001; n <= 2000; ++n) fluid.resize(n);
+  EXPECT_EQ(context.counts().allocations - before, 4 * arrays);
   EXPECT_EQ(fluid.capacity(), 2440);
 }
 
@@ -110,7 +108,7 @@ TEST_F(CapacityOf, OutlivesSorting) {
 
 TEST_F(CapacityOf, ServesAParticleThatLeavesAndOneThatComes) {
   sort();
-  const std::size_t held = context_.allocated();
+  const std::int64_t before = context_.counts().allocations;
   positions_[3] = {2, 0.5, 0.5};  // beyond the face +x
   sort();
   EXPECT_EQ(fluid_.count, 99);
@@ -119,7 +117,7 @@ TEST_F(CapacityOf, ServesAParticleThatLeavesAndOneThatComes) {
   positions_[3] = {0.5, 0.5, 0.5};
   sort();
   EXPECT_EQ(fluid_.count, 100);
-  EXPECT_EQ(context_.allocated(), held) << "memory was taken for a particle that came";
+  EXPECT_EQ(context_.counts().allocations, before) << "memory was taken for a particle that came";
 }
 
 TEST(ParticleArrays, HaveNamesOfTheirOwn) {

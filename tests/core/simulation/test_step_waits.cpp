@@ -17,7 +17,8 @@ DeviceCounts counts_of_step(Simulation& simulation) {
   simulation.step();
   const DeviceCounts after = simulation.device_counts();
   return {after.waits - before.waits, after.launches - before.launches,
-          after.graph_launches - before.graph_launches, after.graph_kernels - before.graph_kernels};
+          after.graph_launches - before.graph_launches, after.graph_kernels - before.graph_kernels,
+          after.allocations - before.allocations};
 }
 
 // Over steps without rebuild whose solve took few iterations.
@@ -78,6 +79,23 @@ TEST(StepWaits, OnceInAStepWithShiftingAndForcesOnWalls) {
   s.numerics.shifting = 0.5;
   s.measure_walls = true;
   expect_one_wait_and_one_launch_a_step(quiet_steps(s, 12));
+}
+
+// Fluid leaves all the while; only what a build of the lists finds may need more room.
+TEST(StepWaits, NoStepBetweenTwoBuildsTakesMemory) {
+  Simulation simulation(dam());
+  simulation.step();  // makes the solver's arrays
+  const std::int64_t start = simulation.particles();
+  int between = 0;
+  for (int k = 0; k < 60; ++k) {
+    const std::int64_t builds = simulation.list_builds();
+    const DeviceCounts c = counts_of_step(simulation);
+    if (simulation.list_builds() > builds) continue;
+    EXPECT_EQ(c.allocations, 0) << "in step " << k;
+    ++between;
+  }
+  EXPECT_GT(between, 20);
+  EXPECT_LT(simulation.particles(), start) << "nothing left";
 }
 
 TEST(StepWaits, OnceInAStepAtRest) { expect_one_wait_and_one_launch_a_step(quiet_steps(tank(oil()), 12)); }
