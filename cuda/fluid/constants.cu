@@ -170,9 +170,29 @@ double capillary_time_step(const SimulationSetup& s) {
   return s.numerics.courant * dt;
 }
 
+double diffusion_time_step(const SimulationSetup& s) {
+  constexpr double pi = 3.14159265358979324, share = 0.7;
+  constexpr int shells = 1000;
+  const double h = s.support_ratio * s.spacing, width = h / shells;
+  const Lucy smoothing(h, s.dimensions);
+  double sum = 0;  // of V |F| [1/m^2], as an integral
+  for (int k = 0; k < shells; ++k) {
+    const double r = (k + 0.5) * width, around = s.dimensions == 2 ? 2 * pi * r : 4 * pi * r * r;
+    sum -= static_cast<double>(smoothing.gradient(static_cast<Real>(r))) * around * width;
+  }
+  return share * 2 / (s.numerics.density_diffusion * h * s.numerics.sound_speed * sum);
+}
+
+double stiff_enough(double sound_speed, double compression, double allowed) {
+  const double wanted = 1.1 * sound_speed * compression / allowed;
+  const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
+  return std::ceil(wanted / digit) * digit;
+}
+
 double stable_time_step(const SimulationSetup& s) {
   const double acoustic = s.numerics.courant * 0.5 * s.support_ratio * s.spacing / s.numerics.sound_speed;
   double dt = smaller(acoustic, capillary_time_step(s));
+  if (s.numerics.density_diffusion > 0) dt = smaller(dt, diffusion_time_step(s));
   if (s.end_time > 0) dt = smaller(dt, 0.5 * s.end_time);
   return s.numerics.max_time_step > 0 ? smaller(dt, s.numerics.max_time_step) : dt;
 }

@@ -60,6 +60,7 @@ struct FluidConstants {
   HOST_DEVICE Real volume(Real excess, Real packing) const {
     return packing * mass / (rest_density + larger(excess, Real(-0.5) * rest_density));
   }
+  HOST_DEVICE Real compression(Real excess) const { return excess / rest_density; }
 };
 
 struct FlowConstants {

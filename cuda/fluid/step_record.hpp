@@ -12,6 +12,7 @@ struct StepRecord {
   double capillary_power = 0;       // of surface tension during the step [W]
   double displacement_squared = 0;  // largest since the lists were built [m^2]
   double approach = 0;              // largest of two cells beyond the skin of the lists [m]
+  double compression = 0;           // largest (rho - rho0)/rho0 of the step
 };
 
 }  // namespace slagflow

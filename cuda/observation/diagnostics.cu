@@ -96,7 +96,7 @@ struct Compression {
   Span<const std::uint8_t> kind;
   Span<const Quad> motion;
   Real sign;
-  HOST_DEVICE Real operator()(Index i) const { return sign * motion[i].w / fluids[kind[i]].rest_density; }
+  HOST_DEVICE Real operator()(Index i) const { return sign * fluids[kind[i]].compression(motion[i].w); }
 };
 
 // 1, or a coordinate, of the particles beyond a plane; else 0.

@@ -67,17 +67,11 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
                   "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
                       "; limits.max_compression is " + number(limits.max_compression),
                   density_excess,
-                  "numerics.sound_speed = " + number(stiff_enough(vitals.max_compression)) + " (it is " +
-                      number(setup_.numerics.sound_speed) + " m/s) or a smaller courant");
+                  "numerics.sound_speed = " +
+                      number(stiff_enough(setup_.numerics.sound_speed, vitals.max_compression,
+                                          limits.max_compression)) +
+                      " (it is " + number(setup_.numerics.sound_speed) + " m/s) or a smaller courant");
   check_energy(vitals, now);
-}
-
-// [m/s] The compression by an impact falls as one over the sound speed, that by weight or speed faster. In
-// two digits, with a tenth to spare.
-double Watch::stiff_enough(double compression) const {
-  const double wanted = 1.1 * setup_.numerics.sound_speed * compression / setup_.limits.max_compression;
-  const double digit = std::pow(10, std::floor(std::log10(wanted)) - 1);
-  return std::ceil(wanted / digit) * digit;
 }
 
 // Kinetic, stored and dissipated energy, less the work of moving walls and what pairing and walls gave, can

@@ -32,7 +32,6 @@ class Watch {
   void check_energy(const Vitals&, const WatchMoment&);
   void check_dissipated(const WatchMoment&, double scale) const;
   void check_given(const Vitals&, const WatchMoment&, double scale);
-  double stiff_enough(double compression) const;
   [[noreturn]] void fail(const WatchMoment&, const std::string& what, const std::string& advice) const;
   [[noreturn]] void fail_at_worst(const FluidArrays&, const WatchMoment&, const std::string& what,
                                   double (*badness)(Quad motion), const std::string& advice) const;

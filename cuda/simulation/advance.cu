@@ -6,27 +6,30 @@ namespace slagflow {
 namespace {
 
 struct AdvanceParticle {
-  static constexpr int terms = 1;
-  Span<const Quad> velocity, reference;
-  double dt;
+  static constexpr int terms = 2;
+  Move move;
+  Span<const std::uint8_t> kind;
   Span<Vec3d> position;
   Span<Quad> place, motion;
-  HOST_DEVICE Terms<1> operator()(Index i) const {
-    const Vec3 v = xyz(velocity[i]);
-    const Vec3d x = position[i] + dt * to_double(v);
+  HOST_DEVICE Terms<2> operator()(Index i) const {
+    const Vec3 v = xyz(move.velocity[i]);
+    const Vec3d x = position[i] + move.dt * to_double(v);
     const Vec3 rounded = to_real(x);
     position[i] = x;
     place[i] = quad(rounded, place[i].w);
-    motion[i] = quad(v, motion[i].w);
-    const Vec3 moved = rounded - xyz(reference[i]);
-    return {{static_cast<double>(dot(moved, moved))}};
+    const Real excess = motion[i].w;
+    motion[i] = quad(v, excess);
+    const Vec3 moved = rounded - xyz(move.reference[i]);
+    return {{static_cast<double>(dot(moved, moved)),
+             static_cast<double>(move.fluids[kind[i]].compression(excess))}};
   }
 };
 
-struct KeepDisplacement {
+struct KeepLargest {
   StepRecord* record;
-  HOST_DEVICE void operator()(const Terms<1>& largest) const {
+  HOST_DEVICE void operator()(const Terms<2>& largest) const {
     record->displacement_squared = larger(largest.value[0], 0.0);
+    record->compression = larger(largest.value[1], 0.0);
   }
 };
 
@@ -43,12 +46,10 @@ struct Diffusivity {
 
 }  // namespace
 
-void advance_particles(Context& context, FluidArrays& f, SolvedVelocity solved, const Buffer<Quad>& reference,
-                       StepRecord* record) {
-  const AdvanceParticle body{solved.velocity,   reference.span(), solved.dt,
-                             f.position.span(), f.place.span(),   f.motion.span()};
+void advance_particles(Context& context, FluidArrays& f, const Move& move, StepRecord* record) {
+  const AdvanceParticle body{move, f.fluid.span(), f.position.span(), f.place.span(), f.motion.span()};
   launch_reduction<TakeLargest>(context, "advance", f.count, if_converged(&record->solve, body),
-                                KeepDisplacement{record});
+                                KeepLargest{record});
 }
 
 double largest_speed(Context& context, const FluidArrays& f, DiagnosticScratch& scratch) {

@@ -8,16 +8,17 @@
 
 namespace slagflow {
 
-struct SolvedVelocity {
-  Span<const Quad> velocity;  // [m/s]
-  double dt;                  // [s]
+struct Move {
+  Span<const Quad> velocity;   // as solved [m/s]
+  double dt;                   // [s]
+  Span<const Quad> reference;  // places at which the neighbour list was built [m]
+  Span<const FluidConstants> fluids;
 };
 
-// v = the solved velocity, x += dt v (positions in fp64). Leaves the square of the largest distance [m] from
-// `reference`, the places at which the neighbour list was built, in the record; not-a-number when a velocity
-// is. Idle unless the record says that the solve has converged.
-void advance_particles(Context&, FluidArrays&, SolvedVelocity solved, const Buffer<Quad>& reference,
-                       StepRecord*);
+// v = the solved velocity, x += dt v (positions in fp64). Leaves in the record the square of the largest
+// distance from the reference, not-a-number when a velocity is, and the largest compression. Idle unless the
+// record says that the solve has converged.
+void advance_particles(Context&, FluidArrays&, const Move&, StepRecord*);
 
 // Largest speed [m/s].
 double largest_speed(Context&, const FluidArrays&, DiagnosticScratch&);

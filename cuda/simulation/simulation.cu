@@ -244,6 +244,7 @@ double Simulation::time() const { return state_->time; }
 double Simulation::time_step() const { return state_->dt; }
 double Simulation::velocity_time_step() const { return state_->solve_step.dt; }
 std::int64_t Simulation::steps() const { return state_->steps; }
+PeakCompression Simulation::largest_compression() const { return state_->largest_compression; }
 SolveReport Simulation::last_solve() const { return state_->report; }
 SolverTotals Simulation::solver_totals() const { return state_->solver; }
 std::int64_t Simulation::list_builds() const { return state_->builds; }

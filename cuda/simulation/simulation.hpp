@@ -78,6 +78,11 @@ class StateTransfer {
   std::unique_ptr<Data> data_;
 };
 
+struct PeakCompression {
+  double value = 0;  // (rho - rho0)/rho0
+  double time = 0;   // [s]
+};
+
 struct SolveReport {
   int iterations = 0;
   double residual = 0;        // ||b - A u|| / ||b||, of the true residual
@@ -101,8 +106,8 @@ class Simulation {
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  // Advances by one time step. Throws Error when the state cannot go on: not-a-number, unconverged solve, or,
-  // looked at every few steps, a limit of SimulationSetup::limits.
+  // Advances by one time step. Throws Error when the state cannot go on: not-a-number, unconverged solve, a
+  // compression beyond its limit, or, looked at every few steps, another of SimulationSetup::limits.
   void step();
   // Looks at the limits now. Throws Error as step does.
   void require_sound();
@@ -117,6 +122,7 @@ class Simulation {
   Totals totals();
   // Where fluid particles are that may be inside walls, and may be beside an edge (penetration.hpp) [m].
   std::vector<Vec3d> below_wall_faces();
+  PeakCompression largest_compression() const;  // of any particle in any step
   SolveReport last_solve() const;
   SolverTotals solver_totals() const;
   double neighbours_mean() const;  // fluid and wall particles within the support radius, itself not counted

@@ -16,6 +16,7 @@ struct SavedNumbers {
   std::int64_t steps, builds;
   std::int64_t solver_steps, solver_iterations, solver_retried, yield_iterations, yield_unconverged;
   double worst_residual, residual, velocity_error, lowest_energy, given_before;
+  double compression, compression_time;
   std::int32_t max_iterations, iterations, converged, real_size;
 };
 
@@ -160,6 +161,8 @@ SavedState Simulation::save() const {
                                      s.report.velocity_error,
                                      s.watch.lowest_energy,
                                      s.watch.given_before,
+                                     s.largest_compression.value,
+                                     s.largest_compression.time,
                                      s.solver.max_iterations,
                                      s.report.iterations,
                                      s.report.converged ? 1 : 0,
@@ -192,6 +195,7 @@ void Simulation::restore(const SavedState& saved) {
               v.yield_iterations, v.yield_unconverged, v.solver_retried};
   s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
   s.watch.lowest_energy = v.lowest_energy, s.watch.given_before = v.given_before;
+  s.largest_compression = {v.compression, v.compression_time};
   s.last.reset();
   s.rebuild_lists_as_saved();
 }

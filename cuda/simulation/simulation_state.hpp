@@ -56,6 +56,7 @@ struct Simulation::State {
   double given = 0;    // [J] to the fluid by pairing and the pressure of walls
   std::int64_t steps = 0, builds = 0;
   std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
+  PeakCompression largest_compression;
   double start_mass = 0;
   Index start_count = 0;  // particles at the start: more than any id
   DepartureCounts departed;

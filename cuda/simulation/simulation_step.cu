@@ -37,7 +37,7 @@ void Simulation::State::launch_move() {
   surface_tension.launch_power(fluid, viscous.velocity(), record);
   viscous.launch_energy(fluid);
   Section timer(context, "advance");
-  advance_particles(context, fluid, {viscous.velocity(), dt}, list_places, record);
+  advance_particles(context, fluid, {viscous.velocity(), dt, list_places.span(), fluids.span()}, record);
   if (!walls.any())
     list_age.launch_approach(ordering.fluid_sources(fluid), list_places.span(),
                              ordering.wall_sources(wall).cell_start, reach, record);
@@ -123,12 +123,15 @@ void Simulation::step() {
     s.taken += s.last->taken, s.given += s.last->given;
     s.displacement = std::sqrt(s.last->displacement_squared);
     s.capillary_work += s.solve_step.dt * s.last->capillary_power;
+    if (s.last->compression > s.largest_compression.value)
+      s.largest_compression = {s.last->compression, s.time};
     if (!std::isfinite(s.displacement)) s.check_finite();
   }
   s.time = s.time_after_step();
   s.last_dt = s.dt;
   ++s.steps;
-  if (s.steps % s.setup.limits.interval == 0) s.look();
+  const bool too_dense = s.last && s.last->compression > s.setup.limits.max_compression;
+  if (too_dense || s.steps % s.setup.limits.interval == 0) s.look();
 }
 
 }  // namespace slagflow

@@ -93,7 +93,8 @@ std::vector<std::string> Losses::warnings(const Totals& totals, std::int64_t sta
   }
   if (static_cast<double>(in_walls_.most) > most)
     warnings.push_back(particles(in_walls_.most) + " (" + percent(in_walls_.most, start) +
-                       ") were deeper than half a spacing in walls: the walls do not hold; try a larger "
+                       (in_walls_.most == 1 ? ") was" : ") were") +
+                       " deeper than half a spacing in walls: the walls do not hold; try a larger "
                        "numerics.sound_speed, a smaller courant or thicker walls");
   return warnings;
 }

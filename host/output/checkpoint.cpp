@@ -21,13 +21,12 @@ constexpr std::size_t seal_bytes = 16;
 
 using Real64 = double RunRecord::*;
 using Whole = std::int64_t RunRecord::*;
-constexpr std::array<std::pair<const char*, Real64>, 7> reals{
+constexpr std::array<std::pair<const char*, Real64>, 6> reals{
     {{"time", &RunRecord::time},
      {"next_snapshot", &RunRecord::next_snapshot},
      {"next_history", &RunRecord::next_history},
      {"wall_time", &RunRecord::wall_time},
      {"setup_time", &RunRecord::setup_time},
-     {"max_density_error", &RunRecord::max_density_error},
      {"deepest_in_wall", &RunRecord::deepest_in_wall}}};
 constexpr std::array<std::pair<const char*, Whole>, 11> wholes{
     {{"steps", &RunRecord::steps},

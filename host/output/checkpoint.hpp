@@ -21,7 +21,6 @@ struct RunRecord {
   double time = 0;                             // [s] simulated
   double next_snapshot = 0, next_history = 0;  // [s] when the outputs are due
   double wall_time = 0, setup_time = 0;        // [s], over all parts of the run
-  double max_density_error = 0;                // largest so far
   double deepest_in_wall = 0;                  // [spacings], of any particle at any look
   std::int64_t steps = 0;                      // of the simulation
   std::int64_t recorded_step = -1;             // of the last line of the history

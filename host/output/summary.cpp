@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace slagflow {
 namespace {
@@ -81,6 +82,13 @@ Json summary_of_case(const Case& resolved, const Provenance& provenance, const R
   return summary;
 }
 
+std::string compression_line(const PeakCompression& largest) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "largest compression %.3g %% at %.4g s", 100 * largest.value,
+                largest.time);
+  return text.data();
+}
+
 void add_results(Json& summary, Simulation& simulation, const RunCounts& counts) {
   const Totals totals = simulation.totals();
   summary.set("steps", simulation.steps()).set("simulated_time", simulation.time());
@@ -91,7 +99,8 @@ void add_results(Json& summary, Simulation& simulation, const RunCounts& counts)
   summary.set("mass_start", totals.mass_start).set("mass_in", totals.mass_in);
   summary.set("mass_left", totals.mass_left).set("departed", departed_of(totals));
   summary.set("particles_in", totals.particles);
-  summary.set("max_density_error", std::max(counts.max_density_error, totals.max_density_error));
+  const PeakCompression compression = simulation.largest_compression();
+  summary.set("max_compression", compression.value).set("max_compression_time", compression.time);
   summary.set("kinetic_energy", totals.kinetic_energy).set("potential_energy", totals.potential_energy);
   summary.set("dissipated_energy", totals.dissipated_energy).set("max_speed", totals.max_speed);
   add_cost(summary, simulation, counts);

@@ -18,11 +18,13 @@ struct RunCounts {
   std::int64_t particle_steps = 0;  // fluid particles, summed over the steps
   double wall_time = 0;             // [s] of the steps and their output
   double setup_time = 0;            // [s] before the first step
-  double max_density_error = 0;     // largest of the run
 };
 
 // What is known before the first step.
 Json summary_of_case(const Case& resolved, const Provenance& provenance, const RunCounts& counts);
+
+// "largest compression 1.2 % at 0.31 s".
+std::string compression_line(const PeakCompression& largest);
 
 // Adds what the simulation and its run led to.
 void add_results(Json& summary, Simulation& simulation, const RunCounts& counts);

@@ -37,7 +37,7 @@ std::string version_text() {
 }
 
 int report(const RunOutcome& outcome) {
-  print("results in " + outcome.folder + "\n");
+  if (!outcome.folder.empty()) print("results in " + outcome.folder + "\n");
   for (const std::string& line : outcome.results) print(line + "\n");
   return outcome.exit_code();
 }

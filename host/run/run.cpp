@@ -12,6 +12,7 @@
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/check.hpp"
 #include "host/run/run_folder.hpp"
+#include "host/run/run_interrupt.hpp"
 #include "host/run/run_loop.hpp"
 
 namespace slagflow {
@@ -59,6 +60,13 @@ std::string already_there(const RunRecord& run, const Case& c) {
          std::to_string(run.time) + " s; --until SECONDS takes it further";
 }
 
+RunOutcome interrupted_before(const std::string& folder) {
+  RunOutcome outcome;
+  outcome.status = RunStatus::interrupted;
+  outcome.results = {"interrupted before the run began; nothing in " + folder + " has been touched"};
+  return outcome;
+}
+
 }  // namespace
 
 int RunOutcome::exit_code() const {
@@ -67,6 +75,7 @@ int RunOutcome::exit_code() const {
 }
 
 RunOutcome run_case(const Case& c, const RunOptions& options) {
+  InterruptGuard signals;
   require_loops(c);
   Case limited = c;
   if (options.until) end_at(*options.until, limited);
@@ -79,16 +88,19 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   const double on_device = device_info().memory;
   require_memory(built, on_device > 0 ? on_device : available_memory());
 
+  if (signals.requested()) return interrupted_before(folder);
+
   Log log(options.verbosity);
   create_folder(folder);
   const FolderLock lock(folder);
   clear_folder(folder);
   log.open(folder + "/log.txt");
   for (const std::string& warning : built.warnings) log.warning(warning);
-  return Run(std::move(built), folder, log).execute();
+  return Run(std::move(built), folder, log, signals).execute();
 }
 
 RunOutcome resume_run(const RunOptions& options) {
+  InterruptGuard signals;
   const std::string& folder = options.folder;
   std::error_code failed;
   if (!std::filesystem::is_directory(folder, failed))
@@ -106,7 +118,7 @@ RunOutcome resume_run(const RunOptions& options) {
   log.open(folder + "/log.txt", std::ios::app);
   BuiltCase built = build_setup(c);
   built.setup.time_parts = options.time_parts;
-  Run run(std::move(built), folder, log);
+  Run run(std::move(built), folder, log, signals);
   for (const std::string& reason : found.damaged) log.warning(reason + "; the previous one is used");
   warn_of_other_version(found, log);
   const RunRecord at = found.checkpoint.run;

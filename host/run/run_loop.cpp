@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "backend/error.hpp"
+#include "fluid/constants.hpp"
+#include "host/case/toml_reader.hpp"
 #include "host/run/run_folder.hpp"
 
 namespace slagflow {
@@ -40,8 +42,9 @@ bool Schedule::due(double time) {
   return true;
 }
 
-Run::Run(BuiltCase built, std::string folder, Log& log)
-    : built_(std::move(built)),
+Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
+    : signals_(signals),
+      built_(std::move(built)),
       folder_(std::move(folder)),
       log_(log),
       store_(folder_),
@@ -70,7 +73,6 @@ void Run::go_on_from(Checkpoint checkpoint) {
   snapshot_step_ = run.snapshot_step;
   particles_now_ = run.particles_now;
   counts_.particle_steps = run.particle_steps;
-  counts_.max_density_error = run.max_density_error;
   wall_before_ = run.wall_time;
   resumes_ = run.resumes + 1;
   provenance_.begin_with(checkpoint.texts);
@@ -94,6 +96,7 @@ RunOutcome Run::execute() {
   write_summary();
   if (simulation_) log_.info("end: " + progress_line(progress(), counts_.wall_time));
   outcome_.results = measures_.lines();
+  tell_compression();
   tell_losses();
   return std::move(outcome_);
 }
@@ -167,7 +170,6 @@ void Run::record() {
   recorded_step_ = simulation_->steps();
   const Totals totals = simulation_->totals();
   particles_now_ = totals.particles;
-  counts_.max_density_error = std::max(counts_.max_density_error, totals.max_density_error);
   losses_.look(*simulation_);
   std::vector<double> values = history_values(*simulation_, totals);
   const auto read = [this]() -> const FluidSnapshot& {
@@ -209,7 +211,6 @@ RunRecord Run::run_record() {
   run.snapshot_step = snapshot_step_;
   run.particles_now = particles_now_;
   run.particle_steps = counts_.particle_steps;
-  run.max_density_error = counts_.max_density_error;
   run.most_in_walls = losses_.in_walls().most;
   run.deepest_in_wall = losses_.in_walls().deepest;
   run.wall_time = wall_before_ + seconds_between(started_, Clock::now());
@@ -251,6 +252,20 @@ void Run::end_outputs() {
   snapshots_->close();
   provenance_.ended_utc = now_utc();
   snapshots_->describe(provenance_.attributes());
+}
+
+void Run::tell_compression() {
+  if (!simulation_) return;
+  constexpr double much = 0.1;
+  const PeakCompression largest = simulation_->largest_compression();
+  const std::string line = compression_line(largest);
+  log_.info(line);
+  outcome_.results.push_back(line);
+  if (largest.value <= much) return;
+  const double sound_speed = built_.resolved.numerics.sound_speed;
+  log_.warning(line + ": too much for a fluid that is to be incompressible; numerics.sound_speed = " +
+               show(stiff_enough(sound_speed, largest.value, much)) + " m/s (it is " + show(sound_speed) +
+               ") keeps it below " + show(much));
 }
 
 void Run::tell_losses() {

@@ -36,8 +36,8 @@ class Schedule {
 
 class Run {
  public:
-  // Of a case whose folder is ready. The log must outlive the run.
-  Run(BuiltCase built, std::string folder, Log& log);
+  // Of a case whose folder is ready. The log and the guard must outlive the run.
+  Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals);
 
   // Goes on from a checkpoint of the same case instead of starting. Throws Error when the particles that
   // the case starts from are others than they were.
@@ -58,6 +58,7 @@ class Run {
   void try_to_save_checkpoint();
   RunRecord run_record();
   void end_outputs();
+  void tell_compression();
   void tell_losses();
   void save_last_state();
   void fail(const std::string& reason);
@@ -66,7 +67,7 @@ class Run {
 
   using Clock = std::chrono::steady_clock;
 
-  InterruptGuard signals_;
+  InterruptGuard& signals_;
   BuiltCase built_;
   std::string folder_;
   Log& log_;

@@ -5,7 +5,7 @@ import csv
 import json
 import tomllib
 
-SUMMARY = ("spacing", "steps", "simulated_time", "wall_time", "particle_steps_per_second", "max_density_error", "mass_start",
+SUMMARY = ("spacing", "steps", "simulated_time", "wall_time", "particle_steps_per_second", "max_compression", "mass_start",
            "mass_in", "mass_left", "version", "commit", "backend", "precision")
 
 

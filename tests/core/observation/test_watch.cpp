@@ -45,6 +45,29 @@ TEST(Watch, EndsACompressionBeyondItsLimit) {
                                             HasSubstr("limits.max_compression is 1e-07")));
 }
 
+TEST(Watch, EndsACompressionBetweenLooks) {
+  SimulationSetup setup = dam();
+  setup.limits.max_compression = 1e-7, setup.limits.interval = 1000;
+  EXPECT_THAT(end_of(setup), testing::AllOf(HasSubstr("step 1 "), HasSubstr("a compression")));
+}
+
+TEST(Watch, LargestCompressionIsThatOfAllSteps) {
+  Simulation simulation(dam());
+  double largest = 0, last = 0;
+  for (int k = 0; k < 40; ++k) {
+    simulation.step();
+    last = simulation.totals().max_density_error;
+    largest = std::max(largest, last);
+    ASSERT_EQ(simulation.largest_compression().value, largest) << k;
+  }
+  ASSERT_LT(last, largest);  // else it might be that of the last step
+  ASSERT_LT(simulation.largest_compression().time, simulation.time());
+  Simulation restored(dam());
+  restored.restore(simulation.save());
+  EXPECT_EQ(restored.largest_compression().value, largest);
+  EXPECT_EQ(restored.largest_compression().time, simulation.largest_compression().time);
+}
+
 TEST(Watch, EndsACollapsedTimeStep) {
   SimulationSetup setup = dam();
   setup.limits.min_time_step_ratio = 2;

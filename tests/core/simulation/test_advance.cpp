@@ -18,6 +18,10 @@ class Advance : public testing::Test {
     fluid_.motion.upload(std::vector<Quad>(3, Quad{0, 0, 0, 11}));
     velocity_.upload({{1, 0, 0, 0}, {0, 3, 4, 0}, {0, 0, -2, 0}});
     reference_.upload({{1, 2, 3, 0}, {Real(0.1), Real(0.2), Real(0.3), 0}, {-1, 0, 5, 0}});
+    fluid_.fluid.upload({0, 1, 0});
+    FluidConstants light, heavy;
+    light.rest_density = 1000, heavy.rest_density = 4000;
+    fluids_.upload({light, heavy});
   }
 
   // The largest displacement.
@@ -25,14 +29,18 @@ class Advance : public testing::Test {
     std::vector<StepRecord> record(1);
     record[0].solve.converged = 1;
     record_.upload(record);
-    advance_particles(context_, fluid_, {velocity_.span(), step}, reference_, record_.span().data);
+    advance_particles(context_, fluid_, {velocity_.span(), step, reference_.span(), fluids_.span()},
+                      record_.span().data);
     record_.download(record);
+    compression_ = record[0].compression;
     return std::sqrt(record[0].displacement_squared);
   }
 
   Context context_;
   Buffer<StepRecord> record_{context_, "record"};
   FluidArrays fluid_{context_};
+  Buffer<FluidConstants> fluids_{context_, "fluids"};
+  double compression_ = 0;
   Buffer<Quad> velocity_{context_, "velocity"}, reference_{context_, "reference"};
   DiagnosticScratch scratch_{context_};
 };
@@ -60,6 +68,15 @@ TEST_F(Advance, ReportsTheLargestDisplacementAndSpeed) {
   EXPECT_NEAR(advance(0.25), 1.25, 1e-6);
   EXPECT_NEAR(advance(0.25), 2.5, 1e-6);
   EXPECT_EQ(largest_speed(context_, fluid_, scratch_), 5);
+}
+
+TEST_F(Advance, ReportsTheLargestCompressionByEachFluidsOwnDensity) {
+  fluid_.motion.upload({{0, 0, 0, 20}, {0, 0, 0, 40}, {0, 0, 0, -50}});
+  advance(0.25);
+  EXPECT_FLOAT_EQ(static_cast<float>(compression_), 0.02f);
+  fluid_.motion.upload({{0, 0, 0, -20}, {0, 0, 0, -40}, {0, 0, 0, -50}});
+  advance(0.25);
+  EXPECT_EQ(compression_, 0);  // of thin fluid
 }
 
 TEST_F(Advance, NotANumberIsReported) {

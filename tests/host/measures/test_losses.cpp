@@ -56,7 +56,7 @@ TEST(Losses, WarnsOfWallsThatDoNotHold) {
   EXPECT_THAT(losses.warnings({}, 125), IsEmpty());
   EXPECT_THAT(losses.lines({}, 125), Contains(HasSubstr("no particle was deeper than half a spacing")));
   losses.look_at({Vec3d{0, 0, -0.6 * spacing}}, 0);
-  EXPECT_THAT(losses.warnings({}, 125), Contains(HasSubstr("1 particle (0.8 %) were deeper")));
+  EXPECT_THAT(losses.warnings({}, 125), Contains(HasSubstr("1 particle (0.8 %) was deeper")));
   EXPECT_THAT(losses.warnings({}, 1001), IsEmpty());
 }
 

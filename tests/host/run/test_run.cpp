@@ -27,16 +27,17 @@ using testing_tools::read_text_file;
 using testing_tools::TempFolder;
 using testing_tools::tiny_case;
 
-RunOptions into(const TempFolder& folder) {
+RunOptions into(const TempFolder& folder, const std::string& name = "run") {
   RunOptions options;
-  options.folder = folder / "run";
+  options.folder = folder / name;
   options.verbosity = Verbosity::quiet;
   options.threads = 1;  // more than the case is worth
   return options;
 }
 
-RunOutcome run_text(const std::string& text, const RunOptions& options) {
-  return run_case(parse_case(text, "tiny.toml"), options);
+RunOutcome run_text(const std::string& text, const RunOptions& options,
+                    const std::vector<std::string>& overrides = {}) {
+  return run_case(parse_case(text, "tiny.toml", overrides), options);
 }
 
 std::vector<std::string> lines_of(const std::string& path) {
@@ -54,7 +55,7 @@ TEST(Run, LeavesAllFilesOfAFinishedRun) {
   const std::string summary = read_text_file(folder / "run/summary.json");
   for (const char* part :
        {"\"status\": \"done\"", "\"case\": \"tiny\"", "\"fluid\": 125", "\"iterations_mean\"", "\"mass_in\"",
-        "\"particle_steps_per_second\"", "\"neighbours_mean\"", "\"max_density_error\"", "\"device_bytes\"",
+        "\"particle_steps_per_second\"", "\"neighbours_mean\"", "\"max_compression\"", "\"device_bytes\"",
         "\"peak_memory_bytes\"", "\"list_builds\"", "\"timings\"", "\"spread\"", "\"+z\": 0"})
     EXPECT_THAT(summary, HasSubstr(part));
   EXPECT_THAT(read_text_file(folder / "run/log.txt"), HasSubstr("case tiny: 125 fluid"));
@@ -68,6 +69,23 @@ TEST(Run, LeavesAllFilesOfAFinishedRun) {
       history[0],
       testing::EndsWith(
           "spread_front_m,spread_passed,outflow_passed_m3,outflow_behind_m3,outflow_flow_m3_s,corner_m3"));
+}
+
+// 10 mm of fluid at rest press it together by (rho g 9 mm)/(rho c0^2).
+TEST(Run, TellsTheLargestCompressionAndWarnsOfMuch) {
+  const TempFolder folder;
+  const RunOutcome soft = run_text(tiny_case(), into(folder, "soft"), {"numerics.sound_speed=0.8"});
+  EXPECT_EQ(soft.status, RunStatus::done);
+  EXPECT_THAT(soft.results, testing::Contains(testing::StartsWith("largest compression 1")));
+  const std::string log = read_text_file(folder / "soft/log.txt");
+  const std::size_t advice = log.find("numerics.sound_speed = ");
+  ASSERT_NE(advice, std::string::npos) << log;
+  const double enough = std::stod(log.substr(advice + 23));
+  EXPECT_GT(enough, 0.8 * 0.138 / 0.1);
+  const RunOutcome stiff =
+      run_text(tiny_case(), into(folder, "stiff"), {"numerics.sound_speed=" + std::to_string(enough)});
+  EXPECT_THAT(stiff.results, testing::Contains(HasSubstr("largest compression")));
+  EXPECT_EQ(read_text_file(folder / "stiff/log.txt").find("numerics.sound_speed = "), std::string::npos);
 }
 
 // Read back by read_vtkhdf.py with VTK's reader, from the folder that the variable names.
@@ -252,6 +270,30 @@ TEST(Run, InterruptEndsItWithItsFilesClosed) {
   EXPECT_EQ(outcome.exit_code(), 130);
   EXPECT_THAT(read_text_file(folder / "run/summary.json"), HasSubstr("\"status\": \"interrupted\""));
   EXPECT_THAT(describe_file(folder / "run/particles.vtkhdf"), HasSubstr("time steps: "));
+}
+
+// The setup looks at some millions of lattice sites, the signal comes as soon as it is waited for.
+TEST(Run, InterruptDuringTheSetupLeavesTheOldRunAsItIs) {
+  const TempFolder folder;
+  run_text(tiny_case(), into(folder));
+  const std::string before = read_text_file(folder / "run/summary.json");
+  std::thread user([] {
+    struct sigaction now {};
+    for (int k = 0; k < 60000 && now.sa_handler == SIG_DFL; ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      sigaction(SIGINT, nullptr, &now);
+    }
+    if (now.sa_handler != SIG_DFL) kill(getpid(), SIGINT);
+  });
+  RunOptions options = into(folder);
+  options.overwrite = Overwrite::replace;
+  const RunOutcome outcome =
+      run_text(tiny_case("1000"), options, {"domain.min=[-0.15,-0.15,-0.15]", "domain.max=[0.15,0.15,0.15]"});
+  user.join();
+  EXPECT_EQ(outcome.exit_code(), 130);
+  EXPECT_THAT(outcome.results, testing::ElementsAre(HasSubstr("nothing in " + (folder / "run"))));
+  EXPECT_EQ(read_text_file(folder / "run/summary.json"), before);
+  EXPECT_FALSE(lines_of(folder / "run/history.csv").empty());
 }
 
 TEST(Run, FolderThatVanishesIsAFailureThatNamesAFileInIt) {
