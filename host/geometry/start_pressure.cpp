@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "host/falls.hpp"
+
 namespace slagflow {
 namespace {
 
@@ -108,6 +110,21 @@ class Heads {
   std::vector<double> head_;
 };
 
+// Of each body of fluid whether it has a wall below it, at most `near` open sites away.
+std::vector<bool> resting(const Case& c, const StartSites& sites, const FluidBodies& bodies) {
+  constexpr std::int64_t near = 2;
+  const Vec3d g = held_gravity(c);
+  std::vector<bool> rests(static_cast<std::size_t>(bodies.count), false);
+  for (std::size_t i = 0; i < sites.particles(); ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::int64_t n = 1; n <= near + 1 && std::abs(g[axis]) > level * norm(g); ++n) {
+        const auto below = sites.beside(sites.taken()[i], axis, g[axis] > 0 ? n : -n);
+        if (below && sites.wall(*below) != StartSites::none)
+          rests[static_cast<std::size_t>(bodies.of[i])] = true;
+      }
+  return rests;
+}
+
 bool any_hydrostatic(const Case& c) {
   return std::any_of(c.regions.begin(), c.regions.end(),
                      [](const RegionSpec& r) { return r.pressure == InitialPressure::hydrostatic; });
@@ -125,8 +142,11 @@ std::vector<double> start_pressure(const Case& c, const StartSites& sites, const
   const Vec3d gravity = heads.gravity();
   if (!any_hydrostatic(c) || !(norm(gravity) > 0)) return pressure;
   const std::vector<double>& head = heads.find();
+  const FluidBodies bodies = fluid_bodies(c, sites);
+  const std::vector<bool> rests = resting(c, sites, bodies);
   for (std::size_t i = 0; i < pressure.size(); ++i)
-    if (c.regions[region[i]].pressure == InitialPressure::hydrostatic)
+    if (c.regions[region[i]].pressure == InitialPressure::hydrostatic &&
+        rests[static_cast<std::size_t>(bodies.of[i])])
       pressure[i] =
           std::max(0.0, c.fluids[fluid.fluid[i]].density * (head[i] + dot(gravity, fluid.position[i])));
   return pressure;

@@ -21,6 +21,7 @@ constexpr double water = 1000, slag = 2600, metal = 7000;
 Case empty_case() {
   Case c = unit_case();
   c.regions.clear();
+  c.walls = {wall("vessel", {outside(box({0, 0, 0}, {10, 10, 10}))})};
   for (const auto& [name, density] : {std::pair{"slag", slag}, std::pair{"metal", metal}}) {
     c.fluids.push_back(c.fluids[0]);
     c.fluids.back().name = name, c.fluids.back().density = density;
@@ -80,6 +81,17 @@ TEST(StartPressure, FluidBesideOtherFluidBearsItsOwnColumn) {
   expect_pressure(c, [](Vec3d p) { return p.x < 5 ? metal * 10 * (8 - p.z) : water * 10 * (4 - p.z); });
 }
 
+// A drop over a pool, a drop without any, and one that two open sites part from a tray.
+TEST(StartPressure, OfFluidThatFallsIsZero) {
+  Case c = empty_case();
+  c.regions = {region(0, {0, 0, 0}, {10, 10, 2}), region(1, {3, 3, 5}, {7, 7, 9})};
+  expect_pressure(c, [](Vec3d p) { return p.z < 2 ? water * 10 * (2 - p.z) : 0; });
+  c.walls.clear();
+  expect_pressure(c, [](Vec3d) { return 0; });
+  c.walls = {wall("tray", {box({3, 3, 2}, {4, 4, 3})})};
+  expect_pressure(c, [](Vec3d p) { return p.z < 2 ? 0 : slag * 10 * (9 - p.z); });
+}
+
 TEST(StartPressure, AGapEndsTheColumn) {
   Case c = empty_case();
   c.regions = {region(0, {0, 0, 0}, {10, 10, 3}), region(0, {0, 0, 4}, {10, 10, 8})};
@@ -89,8 +101,8 @@ TEST(StartPressure, AGapEndsTheColumn) {
 // Below a block that stands in the fluid, and in a cup that is open below.
 TEST(StartPressure, IsThatOfTheLevelUnderWalls) {
   Case c = empty_case();
-  c.walls = {wall("cup", {box({3, 3, 3}, {7, 7, 6})})};
-  c.walls[0].subtract = {box({4, 4, 0}, {6, 6, 5})};
+  c.walls.push_back(wall("cup", {box({3, 3, 3}, {7, 7, 6})}));
+  c.walls[1].subtract = {box({4, 4, 0}, {6, 6, 5})};
   c.regions = {region(1, {0, 0, 0}, {10, 10, 2}), region(0, {0, 0, 2}, {10, 10, 8})};
   ASSERT_GT(fill(c).fluid.position.size(), 700u);
   expect_pressure(
@@ -100,7 +112,7 @@ TEST(StartPressure, IsThatOfTheLevelUnderWalls) {
 // Two legs joined below a wall: the level of each leg, and below the wall that of the nearer.
 TEST(StartPressure, UTube) {
   Case c = empty_case();
-  c.walls = {wall("between", {box({4, -1, 2}, {6, 11, 11})})};
+  c.walls.push_back(wall("between", {box({4, -1, 2}, {6, 11, 11})}));
   c.regions = {region(0, {0, 0, 0}, {10, 10, 7})};
   expect_pressure(c, [](Vec3d p) { return water * 10 * (7 - p.z); });
   c.regions = {region(0, {0, 0, 0}, {5, 10, 8}), region(0, {5, 0, 0}, {10, 10, 6})};
@@ -136,6 +148,7 @@ TEST(StartPressure, FollowsGravityAlongAnyAxis) {
 TEST(StartPressure, InclinedGravityReachesAcrossRegions) {
   Case c = empty_case();
   c.gravity = {6, 0, -8};
+  c.walls = {wall("side", {box({6, 4, 4}, {9, 6, 6})})};
   c.regions = {region(0, {4, 4, 4}, {5, 6, 6}), region(0, {5, 4, 4}, {6, 6, 6})};
   expect_pressure(c, [](Vec3d p) { return water * (6 * (p.x - 4.5) + 8 * (5.5 - p.z) + 5); });
 }
@@ -147,6 +160,7 @@ TEST(StartPressure, OfAFilmIsTheSameAlongAPeriodicSlope) {
     c.dimensions = dimensions;
     c.gravity = {6, 0, -8};
     c.domain.periodic[0] = true;
+    c.walls = {wall("floor", {box({-5, -5, -5}, {15, 15, 0})})};
     c.regions = {region(0, {0, -1, 0}, {10, 11, 5})};
     expect_pressure(c, [](Vec3d p) { return water * 8 * (5 - p.z); });
   }

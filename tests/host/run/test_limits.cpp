@@ -105,7 +105,7 @@ TEST(Limits, AStateBeyondOneIsNoCheckpointAtTheEndEither) {
   options.folder = folder / "run", options.threads = 1, options.verbosity = Verbosity::quiet;
   testing::internal::CaptureStderr();
   const RunOutcome outcome = run_case(parse_case(leaving_case("remove"), "t.toml",
-                                                 {"limits.max_speed=1.001", "output.end_time=0.003",
+                                                 {"limits.max_speed=1.0003", "output.end_time=0.003",
                                                   "limits.interval=1000", "output.checkpoint_interval=0"}),
                                       options);
   testing::internal::GetCapturedStderr();
