@@ -53,6 +53,12 @@ struct FluidSpec {
   std::array<double, most_parameters> parameters{};  // in the order of RheologyInfo::parameters
 
   const RheologyInfo& info() const { return rheologies[static_cast<std::size_t>(rheology)]; }
+  Rheology law() const {
+    Rheology law;
+    law.kind = rheology;
+    for (std::size_t k = 0; k < parameters.size(); ++k) law.parameters[k] = static_cast<Real>(parameters[k]);
+    return law;
+  }
 };
 
 enum class InitialPressure { hydrostatic, zero, uniform };

@@ -93,6 +93,7 @@ std::vector<double> motion_speeds(const Case& c, const WallParticles& walls) {
 std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& filling) {
   const FluidBodies bodies = fluid_bodies(c, *filling.sites);
   const double depth = deepest(c, filling.fluid, bodies), g = norm(c.gravity);
+  const Squeeze squeezed = squeeze(c, *filling.sites, filling.fluid.fluid);
   double start = 0;
   for (const Vec3d& v : filling.fluid.velocity) start = std::max(start, norm(v));
   return {{"depth", 11, std::sqrt(2 * depth), "sqrt(2 g H), H " + rounded(g > 0 ? depth / g : 0) + " m"},
@@ -102,7 +103,8 @@ std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& fill
            std::max(largest(motion_speeds(c, filling.walls)), largest(surface_speeds(c, filling.walls))),
            "of the fastest wall"},
           {"start", 10, start, "of the fastest fluid at the start"},
-          {"squeeze", 10, squeeze_speed(c, *filling.sites), "of fluid pressed out before a moving wall"},
+          {"squeeze", 10, squeezed.speed, "of fluid pressed out before a moving wall"},
+          {"film", 11, squeezed.film, "sqrt(2 p / rho) of what viscosity takes to press it out"},
           {"pressure", 11, pressure_speed(c), "sqrt(2 p / rho) of a region's pressure"},
           {"tension", 10, tension_speed(c), "sqrt(sigma / (rho spacing))"}};
 }

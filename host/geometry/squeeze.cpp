@@ -23,11 +23,22 @@ class Gap {
     }
   }
 
-  double speed() const {
-    std::int64_t openings = 0;
+  Squeeze squeeze(const std::vector<std::uint8_t>& fluid) const {
+    std::int64_t openings = 0, sites = 0;
     for (std::size_t i = 0; i < inside_.size(); ++i)
-      if (inside_[i]) openings += openings_of(sites_.taken()[i]);
-    return openings > 0 ? closing_ / static_cast<double>(openings) : 0;
+      if (inside_[i]) openings += openings_of(sites_.taken()[i]), ++sites;
+    if (openings == 0) return {};
+    Squeeze result{closing_ / static_cast<double>(openings), 0};
+    const double gap = c_.spacing * static_cast<double>(sites) / static_cast<double>(columns_),
+                 way = c_.spacing * static_cast<double>(sites) / static_cast<double>(openings);
+    const double rate = 6 * result.speed / gap;
+    for (std::size_t i = 0; i < inside_.size(); ++i) {
+      if (!inside_[i]) continue;
+      const FluidSpec& spec = c_.fluids[fluid[i]];
+      const double stress = rate * static_cast<double>(viscosity(spec.law(), static_cast<Real>(rate)));
+      result.film = std::max(result.film, std::sqrt(2 * (2 * stress * way / gap) / spec.density));
+    }
+    return result;
   }
 
  private:
@@ -45,6 +56,7 @@ class Gap {
       if (wall == StartSites::none || wall == body_) return;
       closing_ += speed_along(c_.walls[at(body_)].motion, axis_, way_) +
                   speed_along(c_.walls[at(wall)].motion, axis_, -way_);
+      ++columns_;
       for (const std::int32_t i : column) inside_[at(i)] = true;
       return;
     }
@@ -71,6 +83,7 @@ class Gap {
   int axis_, way_;
   std::vector<bool> inside_;  // particles in the gap
   double closing_ = 0;        // [m/s], summed over the faces of the wall
+  std::int64_t columns_ = 0;  // of fluid before them
 };
 
 }  // namespace
@@ -97,14 +110,16 @@ double speed_along(const WallMotion& motion, int axis, int way) {
   return 0;
 }
 
-double squeeze_speed(const Case& c, const StartSites& sites) {
-  double fastest = 0;
+Squeeze squeeze(const Case& c, const StartSites& sites, const std::vector<std::uint8_t>& fluid) {
+  Squeeze largest;
   for (std::size_t b = 0; b < c.walls.size(); ++b)
     for (int axis = 0; axis < 3; ++axis)
       for (const int way : {-1, 1})
-        if (speed_along(c.walls[b].motion, axis, way) > 0)
-          fastest = std::max(fastest, Gap(c, sites, static_cast<std::int32_t>(b), axis, way).speed());
-  return fastest;
+        if (speed_along(c.walls[b].motion, axis, way) > 0) {
+          const Squeeze here = Gap(c, sites, static_cast<std::int32_t>(b), axis, way).squeeze(fluid);
+          largest = {std::max(largest.speed, here.speed), std::max(largest.film, here.film)};
+        }
+  return largest;
 }
 
 }  // namespace slagflow

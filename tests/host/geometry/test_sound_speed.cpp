@@ -150,6 +150,27 @@ TEST(SoundSpeed, FluidBetweenPlatesThatApproachIsPressedOut) {
   EXPECT_EQ(term(c, "squeeze"), 0);
 }
 
+// The same of a fluid of 50 Pa s: twice the pressure of lubrication, 1.5 eta U L^2/gap^3. Of a yield stress
+// alone, tau L/gap.
+TEST(SoundSpeed, AViscousFilmBetweenPlatesResists) {
+  Case c = unit_case();
+  c.dimensions = 2, c.gravity = {};
+  c.domain.lower = {0, -1, -4}, c.domain.upper = {40, 1, 10};
+  c.regions[0].shapes = {box({10, -1, 0}, {30, 1, 4})};
+  c.walls = {floor_at(0), wall("plate", {box({10, -1, 4}, {30, 1, 7})})};
+  c.walls[1].motion.kind = MotionKind::constant;
+  c.walls[1].motion.velocity = {0, 0, -2};
+  c.fluids[0].parameters[0] = 50;
+  const double pressure = 2 * 1.5 * 50 * 2 * 20 * 20 / (4.0 * 4 * 4);
+  EXPECT_NEAR(term(c, "film"), std::sqrt(2 * pressure / 1000), 1e-6);
+  c.walls[1].motion.velocity = {0, 0, 2};  // apart
+  EXPECT_EQ(term(c, "film"), 0);
+  c.walls[1].motion.velocity = {0, 0, -1e-3};
+  c.fluids[0].rheology = RheologyKind::bingham;
+  c.fluids[0].parameters = {1e-6, 300, 1e9};
+  EXPECT_NEAR(term(c, "film"), std::sqrt(2 * 300 * 20 / 4.0 / 1000), 1e-5);
+}
+
 TEST(SoundSpeed, RegionPressureAndSurfaceTensionCount) {
   Case c = unit_case();
   c.gravity = {};
