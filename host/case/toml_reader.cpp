@@ -69,6 +69,55 @@ std::string reason(const std::string& what) {
   return colon == std::string::npos ? text : text.substr(colon + 2);
 }
 
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// A number at a point that lacks a digit on one side, ".5" or "5.", written out; empty where there is none.
+std::string written_out(const std::string& text, std::size_t point) {
+  const auto at = [&](std::size_t k) { return k < text.size() ? text[k] : ' '; };
+  const auto bounds = [](char c) { return std::string(" \t\r=,[]}#").find(c) != std::string::npos; };
+  std::size_t begin = point, end = point + 1;
+  while (begin > 0 && is_digit(text[begin - 1])) --begin;
+  const std::size_t whole = begin;
+  if (begin > 0 && (text[begin - 1] == '-' || text[begin - 1] == '+')) --begin;
+  while (is_digit(at(end))) ++end;
+  const std::size_t fraction = end;
+  if (at(end) == 'e' || at(end) == 'E') {
+    ++end;
+    if (at(end) == '-' || at(end) == '+') ++end;
+    while (is_digit(at(end))) ++end;
+  }
+  const bool no_whole = whole == point, no_fraction = fraction == point + 1;
+  if (no_whole == no_fraction || (begin > 0 && !bounds(text[begin - 1])) || !bounds(at(end))) return "";
+  const std::string zero = "0";
+  return text.substr(begin, whole - begin) + (no_whole ? zero : "") + text.substr(whole, fraction - whole) +
+         (no_fraction ? zero : "") + text.substr(fraction, end - fraction);
+}
+
+// What to write instead of the first such number outside of strings; empty without one.
+std::string advice(const std::string& line) {
+  char quote = 0;
+  for (std::size_t k = 0; k < line.size(); ++k) {
+    const char c = line[k];
+    if (quote != 0)
+      quote = c == quote ? '\0' : quote;
+    else if (c == '"' || c == '\'')
+      quote = c;
+    else if (c == '#')
+      break;
+    else if (c == '.')
+      if (const std::string number = written_out(line, k); !number.empty())
+        return "; a number has a digit on both sides of its point: write " + number;
+  }
+  return "";
+}
+
+std::string line_of(const std::string& text, std::size_t number) {
+  std::size_t begin = 0;
+  for (; number > 1 && begin != std::string::npos; --number)
+    begin = text.find('\n', begin) == std::string::npos ? std::string::npos : text.find('\n', begin) + 1;
+  return begin == std::string::npos ? "" : text.substr(begin, text.find('\n', begin) - begin);
+}
+
 Toml parse_stream(const std::string& text, const std::string& name) {
   std::istringstream stream(text);
   return toml::parse<toml::discard_comments, std::map, std::vector>(stream, name);
@@ -83,6 +132,8 @@ Toml parse_override_value(const std::string& text, const std::string& name) {
     throw;
   } catch (const std::exception&) {
     // Not TOML: a bare word such as jacobi is taken as a string.
+    if (const std::string better = advice(text); !better.empty())
+      throw InputError(name + ": not TOML" + better);
   }
   std::string quoted = "\"";
   for (const char c : text) {
@@ -133,7 +184,8 @@ Toml parse_toml(const std::string& text, const std::string& name) {
   try {
     return parse_stream(text, name);
   } catch (const toml::exception& e) {
-    throw InputError(name + ":" + std::to_string(e.location().line()) + ": not TOML: " + reason(e.what()));
+    throw InputError(name + ":" + std::to_string(e.location().line()) + ": not TOML: " + reason(e.what()) +
+                     advice(line_of(text, e.location().line())));
   } catch (const std::exception& e) {
     throw InputError(name + ": not TOML: " + reason(e.what()));
   }

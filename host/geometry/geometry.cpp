@@ -43,6 +43,7 @@ class Filler {
     const auto sites = std::make_shared<StartSites>(lattice_, std::move(body_), std::move(site_));
     result_.fluid.pressure = start_pressure(c_, *sites, result_.fluid, region_);
     result_.sites = sites;
+    result_.region = std::move(region_);
     return std::move(result_);
   }
 
@@ -239,8 +240,9 @@ class Filler {
       const int sign = face.normal[axis] > 0 ? 1 : -1;
       const double coordinate = p[axis] + face.depth * face.normal[axis];
       if (!fluid_beyond(s, axis, sign)) return;
-      const long rounded = std::lround(1000 * coordinate / lattice_.spacing());
       const std::size_t body = body_[lattice_.linear(s)] - std::size_t{1};
+      if (!is_plane(p + face.depth * face.normal, axis, body)) return;
+      const long rounded = std::lround(1000 * coordinate / lattice_.spacing());
       if (!warned_.emplace(body, axis, sign, rounded).second || ++faces_off_[body] > faces_told) return;
       char text[160];
       std::snprintf(text, sizeof text, "the face %c = %.6g m lies %.2f spacings off the lattice", "xyz"[axis],
@@ -249,6 +251,22 @@ class Filler {
                                  "; faces that border the fluid should be a whole number of spacings from "
                                  "resolution.origin");
     }
+  }
+
+  // Whether the walls have a face there, half a spacing wide and more, across an axis: not so at the pole of
+  // a sphere, nor where a wall particle counts as below the plane of a face that does not reach so far.
+  bool is_plane(Vec3d foot, int axis, std::size_t body) const {
+    const auto on_face = [&](Vec3d q) {
+      return std::abs(solids_.distance_to_company(lattice_.wrapped(q), body)) < 1e-3 * lattice_.spacing();
+    };
+    if (!on_face(foot)) return false;
+    for (int across = 0; across < 3; ++across) {
+      if (across == axis || (across == 1 && c_.dimensions == 2)) continue;
+      Vec3d one = foot, other = foot;
+      one[across] -= 0.5 * lattice_.spacing(), other[across] += 0.5 * lattice_.spacing();
+      if (!on_face(one) && !on_face(other)) return false;
+    }
+    return true;
   }
 
   void warn_of_more_faces() {

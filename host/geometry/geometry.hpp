@@ -125,6 +125,7 @@ struct Filling {
   FluidParticles fluid;
   WallParticles walls;
   std::shared_ptr<const StartSites> sites;  // who has which site of the lattice
+  std::vector<std::uint32_t> region;        // of each fluid particle
   std::vector<std::string> warnings;
 };
 

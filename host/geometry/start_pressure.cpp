@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "host/falls.hpp"
+#include "host/geometry/falls.hpp"
 
 namespace slagflow {
 namespace {

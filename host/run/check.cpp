@@ -98,6 +98,9 @@ TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
   const NumericsSetup& numerics = setup.numerics;
   TimeStep step{numerics.courant * (setup.support_ratio * setup.spacing / 2) / sound_speed,
                 "courant (h/2) / sound speed"};
+  if (numerics.density_diffusion > 0)
+    step.limit(diffusion_time_step(setup) * numerics.sound_speed / sound_speed,
+               "numerics.density_diffusion, which is stable up to about 0.28/courant without shorter steps");
   step.limit(capillary_time_step(setup), "courant sqrt(rho spacing^3 / (2 pi surface tension))");
   if (setup.end_time > 0) step.limit(0.5 * setup.end_time, "half of output.end_time");
   if (numerics.max_time_step > 0) step.limit(numerics.max_time_step, "numerics.max_time_step");
@@ -208,7 +211,9 @@ CaseCheck check_case(const BuiltCase& built) {
   check.exits = exits_text(built.resolved);
   const auto fluid = static_cast<double>(check.fluid_particles);
   check.memory = memory_of(setup);
-  check.run_time = check.steps * fluid / particle_steps_per_second;
+  check.exact_yield = setup.numerics.yield == YieldModel::exact;
+  check.run_time =
+      check.steps * fluid / particle_steps_per_second * (check.exact_yield ? exact_yield_cost : 1);
   add_warnings(check, built);
   return check;
 }
@@ -235,6 +240,10 @@ std::string to_text(const CaseCheck& c) {
   text += format("memory           about %.3g MB\n", c.memory / 1e6);
   text += format("run time         roughly %s on two CPU cores (%.2g particle-steps/s)\n",
                  duration(c.run_time).c_str(), particle_steps_per_second);
+  if (c.exact_yield)
+    text += format(
+        "                 times %g for the exact yield stress, whose cost no one knows before: 2 to 15\n",
+        exact_yield_cost);
   for (const std::string& warning : c.warnings) text += "warning: " + warning + "\n";
   return text;
 }

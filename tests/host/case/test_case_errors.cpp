@@ -73,6 +73,8 @@ const std::vector<Wrong> wrong_cases{
     {2, "name = 'a", {"case.toml:2: not TOML"}},
     {8, "density = 965\ndensity = 966", {"case.toml:9: not TOML", "density"}},
     {1, "[case", {"case.toml:1: not TOML"}},
+    {8, "density = .5", {"case.toml:8: not TOML", "write 0.5"}},
+    {8, "density = -5.e-3 # 5.", {"case.toml:8: not TOML", "write -5.0e-3"}},
     {2, "name = 'a'\nx = " + std::string(300, '['), {"case.toml:3: brackets nested deeper"}},
     // Unknown keys and tables
     {8,

@@ -59,6 +59,30 @@ TEST(SetupBuilder, FillsInEverything) {
   EXPECT_NE(to_toml(built.resolved).find("sound_speed = 69.57"), std::string::npos);
 }
 
+TEST(SetupBuilder, WarnsOfAFluidThatNoRegionUses) {
+  Case c = unit_case();
+  const auto unused = testing::HasSubstr("is in no region");
+  EXPECT_THAT(build_setup(c).warnings, testing::Not(testing::Contains(unused)));
+  c.fluids.push_back(c.fluids[0]);
+  c.fluids[1].name = "oil";
+  EXPECT_THAT(build_setup(c).warnings, testing::Contains(testing::HasSubstr("fluid 'oil' is in no region")));
+}
+
+// eta/sqrt(rho sigma spacing), spacing 1.
+TEST(SetupBuilder, WarnsOfSurfaceTensionThatViscosityDoesNotDamp) {
+  Case c = unit_case();
+  c.fluids[0].surface_tension = 10;
+  const auto currents = testing::HasSubstr("fluid 'water': surface tension is strong against viscosity");
+  c.fluids[0].parameters[0] = 0.11 * 100;
+  EXPECT_THAT(build_setup(c).warnings, testing::Not(testing::Contains(currents)));
+  c.fluids[0].parameters[0] = 0.09 * 100;
+  EXPECT_THAT(build_setup(c).warnings,
+              testing::Contains(testing::AllOf(currents, testing::HasSubstr("= 0.09: below 0.1"),
+                                               testing::HasSubstr("about 0.04 m/s"))));
+  c.fluids[0].surface_tension = 0;
+  EXPECT_THAT(build_setup(c).warnings, testing::Not(testing::Contains(currents)));
+}
+
 TEST(SetupBuilder, RefusesWhatCannotRun) {
   Case c = unit_case();
   c.gravity = {0, 0, 0};

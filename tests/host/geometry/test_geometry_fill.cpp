@@ -93,6 +93,14 @@ TEST(GeometryWalls, NoWarningOnTheLatticeOrFarFromFluid) {
   EXPECT_TRUE(fill(c).warnings.empty());
 }
 
+// Its pole lies across an axis, over a site.
+TEST(GeometryWalls, NoWarningOfAFaceThatACurvedWallHasNot) {
+  Case c = unit_case();
+  c.walls = {wall("ball", {{SphereSpec{{5.5, 5.5, 0}, 4.2}, false}})};
+  for (const std::string& warning : fill(c).warnings)
+    EXPECT_THAT(warning, testing::Not(testing::HasSubstr("off the lattice")));
+}
+
 TEST(GeometryWalls, ConvexLipTakesTheNearestFace) {
   Case c = unit_case();
   c.regions[0].shapes = {box({7, 4, 7}, {9, 6, 9})};
@@ -341,6 +349,7 @@ TEST(GeometryFluid, StaysInsideTheDomain) {
 
 TEST(GeometryFluid, PressureIsHydrostaticBelowTheSurface) {
   Case c = unit_case();
+  c.walls = {wall("floor", {box({0, 0, -1}, {10, 10, 2})})};
   c.regions[0].shapes = {box({2, 2, 2}, {4, 4, 7})};
   c.regions.push_back(c.regions[0]);
   c.regions[1].shapes = {box({6, 2, 2}, {8, 4, 4})};
@@ -354,6 +363,7 @@ TEST(GeometryFluid, PressureIsHydrostaticBelowTheSurface) {
 TEST(GeometryFluid, PressureFollowsInclinedGravity) {
   Case c = unit_case();
   c.gravity = {6, 0, -8};
+  c.walls = {wall("floor", {box({4, 4, 0}, {6, 6, 4})})};
   const FluidParticles fluid = fill(c).fluid;
   // Highest site along -g: (4.5, ., 5.5).
   for (std::size_t i = 0; i < fluid.pressure.size(); ++i) {

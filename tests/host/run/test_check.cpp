@@ -67,6 +67,31 @@ TEST(CaseCheck, ExplicitViscosityIsLimitedByTheFluidAtRest) {
   EXPECT_THAT(c.time_step_reason, testing::HasSubstr("diffusion_number"));
 }
 
+TEST(CaseCheck, StrongDensityDiffusionLimitsTheTimeStep) {
+  BuiltCase built = block();
+  const double acoustic = 0.8 * 0.013 / 7;
+  built.setup.numerics.density_diffusion = 0.3;
+  EXPECT_NEAR(check_case(built).time_step, acoustic, 1e-12);
+  built.setup.numerics.density_diffusion = 1;
+  // 0.7 x 2/(delta h c0 S), S = 10.5/h^2 for Lucy's function in 3-D.
+  EXPECT_NEAR(check_case(built).time_step, 1.4 * 0.026 / (7 * 10.5), 1e-3 * acoustic);
+  EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("density_diffusion"));
+  built.setup.dimensions = 2;  // S = 10/h^2
+  EXPECT_NEAR(check_case(built).time_step, 1.4 * 0.026 / (7 * 10), 1e-3 * acoustic);
+}
+
+// Measured: 2.4 to 15 times as long.
+TEST(CaseCheck, ExactYieldTakesSeveralTimesAsLong) {
+  BuiltCase built = block();
+  const CaseCheck regularised = check_case(built);
+  built.setup.numerics.yield = YieldModel::exact;
+  const CaseCheck exact = check_case(built);
+  EXPECT_GT(exact.run_time, 2.4 * regularised.run_time);
+  EXPECT_LT(exact.run_time, 15 * regularised.run_time);
+  EXPECT_THAT(to_text(exact), testing::HasSubstr("times 7 for the exact yield stress"));
+  EXPECT_THAT(to_text(regularised), testing::Not(testing::HasSubstr("exact yield stress")));
+}
+
 TEST(CaseCheck, ShowsTheViscosityCorrection) {
   const CaseCheck c = check_case(block());
   EXPECT_NEAR(c.viscosity_correction, 1.047, 0.001);

@@ -1,0 +1,81 @@
+// Fluid that starts off its lattice sites settles, and loses pressure by it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "host/geometry/settling.hpp"
+#include "host/geometry/setup_builder.hpp"
+#include "simulation/simulation.hpp"
+
+namespace slagflow {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+// A box of 15 x 15 spacings, full of oil without gravity.
+Case closed_box(const std::vector<std::string>& overrides = {}) {
+  return parse_case(R"([case]
+name = "box"
+[resolution]
+spacing = 0.01
+dimensions = 2
+[gravity]
+acceleration = [0, 0, 0]
+[fluid.oil]
+density = 1000
+rheology = "newtonian"
+dynamic_viscosity = 1
+[[region]]
+jitter = 0.3
+pressure = 20000
+shapes = [{shape="box", min=[0,-1,0], max=[0.15,1,0.15]}]
+[[wall]]
+name = "vessel"
+shapes = [{shape="box", min=[0,-1,0], max=[0.15,1,0.15], outside=true}]
+[domain]
+min = [-0.03,-1,-0.03]
+max = [0.18,1,0.18]
+[numerics]
+sound_speed = 20
+[output]
+end_time = 1
+)",
+                    "box.toml", overrides);
+}
+
+double mean_pressure_after(const Case& c, double time) {
+  Simulation simulation(build_setup(c).setup);
+  while (simulation.time() < time) simulation.step();
+  FluidSnapshot snapshot;
+  simulation.read(snapshot);
+  double sum = 0;
+  for (const float p : snapshot.pressure) sum += static_cast<double>(p);
+  return sum / static_cast<double>(snapshot.pressure.size());
+}
+
+// Roughly: from case to case it differs by a third.
+TEST(Settling, LosesPressureByTheSquareOfTheJitter) {
+  const double stiffness = 1000 * 20 * 20;
+  for (const double jitter : {0.2, 0.4}) {
+    const Case c = closed_box({"region.0.jitter=" + std::to_string(jitter)});
+    const double lost = (20000 - mean_pressure_after(c, 0.2)) / stiffness;
+    EXPECT_NEAR(lost, settling_loss(jitter), 0.5 * settling_loss(jitter)) << jitter;
+  }
+  EXPECT_NEAR(mean_pressure_after(closed_box({"region.0.jitter=0"}), 0.2), 20000, 0.02 * 20000);
+}
+
+TEST(Settling, OfAClosedSpaceIsTold) {
+  // 0.2 x 0.3^2 x 4e5 Pa.
+  EXPECT_THAT(build_setup(closed_box()).warnings,
+              Contains(testing::AllOf(HasSubstr("region 0 fills a closed space"), HasSubstr("7.2e+03 Pa"),
+                                      HasSubstr("pressure = 2.72e+04"))));
+  const auto told = Contains(HasSubstr("closed space"));
+  for (const char* harmless :
+       {"region.0.jitter=0", "region.0.jitter=0.1",
+        "region.0.shapes=[{shape=\"box\", min=[0,-1,0], max=[0.15,1,0.1]}]"})  // with a free surface
+    EXPECT_THAT(build_setup(closed_box({harmless})).warnings, Not(told)) << harmless;
+}
+
+}  // namespace
+}  // namespace slagflow
