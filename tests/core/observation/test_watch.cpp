@@ -51,23 +51,6 @@ TEST(Watch, EndsACompressionBetweenLooks) {
   EXPECT_THAT(end_of(setup), testing::AllOf(HasSubstr("step 1 "), HasSubstr("a compression")));
 }
 
-TEST(Watch, LargestCompressionIsThatOfAllSteps) {
-  Simulation simulation(dam());
-  double largest = 0, last = 0;
-  for (int k = 0; k < 20; ++k) {
-    simulation.step();
-    last = simulation.totals().max_density_error;
-    largest = std::max(largest, last);
-    ASSERT_EQ(simulation.largest_compression().value, largest) << k;
-  }
-  ASSERT_LT(last, largest);  // else it might be that of the last step
-  ASSERT_LT(simulation.largest_compression().time, simulation.time());
-  Simulation restored(dam());
-  restored.restore(simulation.save());
-  EXPECT_EQ(restored.largest_compression().value, largest);
-  EXPECT_EQ(restored.largest_compression().time, simulation.largest_compression().time);
-}
-
 TEST(Watch, EndsACollapsedTimeStep) {
   SimulationSetup setup = dam();
   setup.limits.min_time_step_ratio = 2;
@@ -95,6 +78,24 @@ SimulationSetup released_block(double courant, std::uint8_t fluid) {
   return setup;
 }
 
+TEST(Watch, LargestCompressionIsThatOfAllSteps) {
+  const SimulationSetup setup = released_block(0.5, 0);
+  Simulation simulation(setup);
+  double largest = 0, last = 0;
+  for (int k = 0; k < 20; ++k) {
+    simulation.step();
+    last = simulation.totals().max_density_error;
+    largest = std::max(largest, last);
+    ASSERT_EQ(simulation.largest_compression().value, largest) << k;
+  }
+  ASSERT_LT(last, largest);  // else it might be that of the last step
+  ASSERT_LT(simulation.largest_compression().time, simulation.time());
+  Simulation restored(setup);
+  restored.restore(simulation.save());
+  EXPECT_EQ(restored.largest_compression().value, largest);
+  EXPECT_EQ(restored.largest_compression().time, simulation.largest_compression().time);
+}
+
 TEST(Watch, EndsARunWhoseEnergyGrowsWithoutASource) {
   for (const std::uint8_t fluid : {std::uint8_t{0}, std::uint8_t{1}}) {
     EXPECT_EQ(end_of(released_block(0.5, fluid)), "");
@@ -107,6 +108,7 @@ TEST(Watch, EndsARunWhoseEnergyGrowsWithoutASource) {
 // What leaves takes its energy with it, and must not hide that the rest gains some.
 TEST(Watch, SeesEnergyGrowWhileParticlesLeave) {
   SimulationSetup setup = released_block(3.5, 0);
+  setup.numerics.density_diffusion = 0;  // which would shorten the steps
   for (Vec3d& v : setup.particles.velocity) v.x = -0.05;
   setup.domain.lower.x = -0.046;
   EXPECT_THAT(end_of(setup), HasSubstr("the energy grew by"));
