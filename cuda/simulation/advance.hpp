@@ -3,6 +3,7 @@
 
 #include "backend/buffer.hpp"
 #include "fluid/diagnostic_scratch.hpp"
+#include "fluid/params.hpp"
 #include "fluid/particles.hpp"
 #include "fluid/step_record.hpp"
 

@@ -1,4 +1,5 @@
 // The case files that come with the program.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,9 @@ TEST(Cases, EveryFileLoadsBuildsAndWritesItselfBack) {
     EXPECT_FALSE(c.description.empty());
     const BuiltCase built = build_setup(c);
     EXPECT_GT(built.setup.numerics.sound_speed, 0);
-    EXPECT_TRUE(built.warnings.empty()) << built.warnings.front();
+    // Two may lose pressure as they settle: the more of it, the more noise.
+    EXPECT_THAT(built.warnings,
+                testing::Each(testing::HasSubstr("fills a closed space, and loses about 8 Pa")));
     const std::string written = to_toml(built.resolved);
     EXPECT_EQ(to_toml(parse_case(written, "resolved.toml")), written);
     const SimulationSetup& setup = built.setup;
