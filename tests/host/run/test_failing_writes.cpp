@@ -1,4 +1,5 @@
-// A disk that fails at the n-th write, for every n: nothing that was complete is lost, and the run can go on.
+// A disk that fails at the n-th write, for every n (label long) or every fifth: nothing that was complete is
+// lost, and the run can go on.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +23,12 @@ using testing_tools::read_text_file;
 using testing_tools::TempFolder;
 using testing_tools::tiny_case;
 
-class FailingWrites : public testing::TestWithParam<const char*> {
+struct Failure {
+  const char* mode;
+  int step;  // from one n to the next
+};
+
+class FailingWrites : public testing::TestWithParam<Failure> {
  protected:
   FailingWrites() {
     std::ofstream(folder_ / "tiny.toml") << tiny_case("0.002");
@@ -47,11 +53,12 @@ class FailingWrites : public testing::TestWithParam<const char*> {
   int call(const std::vector<std::string>& command, const std::string& program) const {
     return ProgramProcess(command, folder_ / "said", program).wait();
   }
+  static std::string label(int n) { return std::string(GetParam().mode) + " " + std::to_string(n); }
   std::string said() const { return read_text_file(folder_ / "said"); }
 
   // The n-th write fails. Returns whether the program noticed, which it must say with file and reason.
   bool call_with_failure(const std::vector<std::string>& command, int n) const {
-    setenv("SLAGFLOW_FAIL_WRITE", (std::string(GetParam()) + " " + std::to_string(n)).c_str(), 1);
+    setenv("SLAGFLOW_FAIL_WRITE", label(n).c_str(), 1);
     const int status = call(command, SLAGFLOW_FAILING_PROGRAM);
     unsetenv("SLAGFLOW_FAIL_WRITE");
     EXPECT_TRUE(status == 0 || status == 1) << status << ": " << said();
@@ -74,12 +81,12 @@ class FailingWrites : public testing::TestWithParam<const char*> {
 // The first hundreds of writes make the files.
 TEST_P(FailingWrites, LeaveNothingFalseInARunThatBegins) {
   int failed = 0;
-  for (int n = 1; n <= 400; n += n < 50 ? 1 : 50) {
-    SCOPED_TRACE(std::string(GetParam()) + " " + std::to_string(n));
+  for (int n = 1; n <= 400; n += n < 50 ? GetParam().step : 50) {
+    SCOPED_TRACE(label(n));
     if (call_with_failure(run_command("run"), n)) ++failed;
     if (std::filesystem::exists(folder_ / "run/checkpoint.h5")) expect_to_go_on();
   }
-  EXPECT_GT(failed, 40);
+  EXPECT_GT(failed, 40 / GetParam().step);
 }
 
 TEST_P(FailingWrites, LoseNothingThatWasComplete) {
@@ -87,18 +94,24 @@ TEST_P(FailingWrites, LoseNothingThatWasComplete) {
   begin.insert(begin.end(), {"--until", "0.0007"});
   ASSERT_EQ(call(begin, SLAGFLOW_PROGRAM), 0) << said();
   int failed = 0;
-  for (int n = 1; n <= 300; n += n < 50 ? 1 : 25) {
-    SCOPED_TRACE(std::string(GetParam()) + " " + std::to_string(n));
+  for (int n = 1; n <= 300; n += n < 50 ? GetParam().step : 25) {
+    SCOPED_TRACE(label(n));
     std::filesystem::remove_all(folder_ / "run");
     std::filesystem::copy(folder_ / "begun", folder_ / "run");
     if (call_with_failure(resume_command(), n)) ++failed;
     expect_to_go_on();
   }
-  EXPECT_GT(failed, 40);
+  EXPECT_GT(failed, 40 / GetParam().step);
 }
 
-INSTANTIATE_TEST_SUITE_P(Disk, FailingWrites, testing::Values("once", "always", "torn"),
-                         [](const auto& mode) { return std::string(mode.param); });
+std::string mode_of(const testing::TestParamInfo<Failure>& info) { return info.param.mode; }
+
+INSTANTIATE_TEST_SUITE_P(Disk, FailingWrites,
+                         testing::Values(Failure{"once", 5}, Failure{"always", 5}, Failure{"torn", 5}),
+                         mode_of);
+INSTANTIATE_TEST_SUITE_P(DiskAtEveryWrite, FailingWrites,
+                         testing::Values(Failure{"once", 1}, Failure{"always", 1}, Failure{"torn", 1}),
+                         mode_of);
 
 }  // namespace
 }  // namespace slagflow
