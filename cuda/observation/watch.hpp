@@ -27,6 +27,10 @@ class Watch {
 
   // Lowest total energy seen so far, and what had been given at the last look [J]; kept in checkpoints.
   double lowest_energy = 1e300, given_before = 0;
+  template <class Visitor>
+  void save(Visitor& v) {
+    v.number(lowest_energy), v.number(given_before);
+  }
 
  private:
   void check_energy(const Vitals&, const WatchMoment&);

@@ -1,6 +1,8 @@
 // Saves and restores a simulation to the bit.
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "backend/error.hpp"
@@ -10,17 +12,10 @@ namespace slagflow {
 
 namespace {
 
-// Numbers that are not particle arrays.
-struct SavedNumbers {
-  double time, dt, full_dt, last_dt, displacement, taken, given, capillary_work, list_time;
-  std::int64_t steps, builds;
-  std::int64_t solver_steps, solver_iterations, solver_retried, yield_iterations, yield_unconverged;
-  double worst_residual, residual, velocity_error, lowest_energy, given_before;
-  double compression, compression_time;
-  std::int32_t max_iterations, iterations, converged, real_size;
-};
+constexpr const char* numbers_name = "numbers";
 
-// One pass over the arrays serves both ways, so that they cannot differ.
+// One pass over all that is saved serves both ways, so that they cannot differ. Single numbers go into an
+// array of their own, in the order in which they are visited.
 class Saver {
  public:
   explicit Saver(SavedState& state) : state_(state) {}
@@ -45,14 +40,20 @@ class Saver {
   void as_many(const char* name, std::vector<T>& host) {
     values(name, host);
   }
+  template <class T>
+  void number(T& value) {
+    numbers_.push_back(static_cast<double>(value));
+  }
+  void end() { values(numbers_name, numbers_); }
 
  private:
   SavedState& state_;
+  std::vector<double> numbers_;
 };
 
 class Restorer {
  public:
-  explicit Restorer(const SavedState& state) : state_(state) {}
+  explicit Restorer(const SavedState& state) : state_(state) { values(numbers_name, numbers_); }
 
   template <class T>
   void array(const char* name, Buffer<T>& buffer) {
@@ -87,33 +88,65 @@ class Restorer {
     values(name, host);
     require_fit(host.size() == size);
   }
+  template <class T>
+  void number(T& value) {
+    require_fit(next_ < numbers_.size());
+    const double saved = numbers_[next_++];
+    constexpr double exact = 9007199254740992;  // as are whole numbers up to there
+    const double largest = smaller(exact, static_cast<double>(std::numeric_limits<T>::max()));
+    if (std::is_integral_v<T> && !(std::abs(saved) <= largest)) refuse_numbers();
+    value = static_cast<T>(saved);
+  }
+  void end() const { require_fit(next_ == numbers_.size()); }
+
   static void require_fit(bool fits) {
     if (!fits) throw Error("checkpoint: its arrays do not belong to this case");
   }
+  [[noreturn]] static void refuse_numbers() { throw Error("checkpoint: its numbers are not those of a run"); }
 
  private:
   const SavedState& state_;
+  std::vector<double> numbers_;
+  std::size_t next_ = 0;
 };
+
+// When and how far: what the walls follow from.
+template <class Visitor, class State>
+void visit_clock(Visitor& v, State& s) {
+  v.number(s.time), v.number(s.dt), v.number(s.full_dt), v.number(s.last_dt), v.number(s.list_time);
+  v.number(s.displacement), v.number(s.taken), v.number(s.given), v.number(s.capillary_work);
+  v.number(s.steps), v.number(s.builds);
+  v.number(s.largest_compression.value), v.number(s.largest_compression.time);
+}
+
+template <class Visitor>
+void visit_solves(Visitor& v, SolverTotals& all, SolveReport& last) {
+  v.number(all.steps), v.number(all.iterations), v.number(all.max_iterations), v.number(all.worst_residual);
+  v.number(all.yield_iterations), v.number(all.yield_unconverged), v.number(all.retried);
+  v.number(last.iterations), v.number(last.residual), v.number(last.velocity_error), v.number(last.converged);
+}
 
 // Each part says itself what of it goes into a checkpoint.
 template <class Visitor, class State>
-void visit_arrays(Visitor& v, State& s) {
+void visit_parts(Visitor& v, State& s) {
   s.fluid.each(Fate::saved, [&](auto& array) { v.array(array.field.name, array); });
   s.wall.each(Fate::saved, [&](auto& array) { v.as_many(array.field.name, array); });
-  s.wall_forces.save(v), s.planes.save(v), s.viscous.save(v);
+  s.wall_forces.save(v), s.planes.save(v), s.viscous.save(v), s.watch.save(v);
   v.array("list_places", s.list_places), v.as_many("departed", s.departed);
+  visit_solves(v, s.solver, s.report);
+  v.end();
 }
 
 // What indices into other arrays are made of, and what the loop over the steps counts on. Anything else that
 // is false in a checkpoint shows as a state that cannot go on.
-void require_possible(const SavedNumbers& v) {
-  const bool possible = v.time >= 0 && std::isfinite(v.time) && v.dt > 0 && std::isfinite(v.dt) &&
-                        v.full_dt > 0 && std::isfinite(v.full_dt) && v.last_dt >= 0 &&
-                        std::isfinite(v.last_dt) && v.list_time >= 0 && v.list_time <= v.time &&
-                        std::isfinite(v.displacement) && std::isfinite(v.taken) && std::isfinite(v.given) &&
-                        std::isfinite(v.capillary_work) && v.steps >= 0 && v.builds >= 0 &&
-                        v.solver_steps >= 0;
-  if (!possible) throw Error("checkpoint: its numbers are not those of a run");
+template <class State>
+void require_possible_clock(const State& s) {
+  bool possible = s.time >= 0 && s.dt > 0 && s.full_dt > 0 && s.last_dt >= 0 && s.list_time >= 0 &&
+                  s.list_time <= s.time && s.steps >= 0 && s.builds >= 0;
+  for (const double v :
+       {s.time, s.dt, s.full_dt, s.last_dt, s.displacement, s.taken, s.given, s.capillary_work})
+    possible = possible && std::isfinite(v);
+  if (!possible) Restorer::refuse_numbers();
 }
 
 void require_possible(const FluidArrays& fluid, const Buffer<Quad>& list_places, const CellGrid& grid,
@@ -139,63 +172,24 @@ SavedState Simulation::save() const {
   State& s = *state_;
   SavedState result;
   Saver saver(result);
-  visit_arrays(saver, s);
-  std::vector<SavedNumbers> numbers{{s.time,
-                                     s.dt,
-                                     s.full_dt,
-                                     s.last_dt,
-                                     s.displacement,
-                                     s.taken,
-                                     s.given,
-                                     s.capillary_work,
-                                     s.list_time,
-                                     s.steps,
-                                     s.builds,
-                                     s.solver.steps,
-                                     s.solver.iterations,
-                                     s.solver.retried,
-                                     s.solver.yield_iterations,
-                                     s.solver.yield_unconverged,
-                                     s.solver.worst_residual,
-                                     s.report.residual,
-                                     s.report.velocity_error,
-                                     s.watch.lowest_energy,
-                                     s.watch.given_before,
-                                     s.largest_compression.value,
-                                     s.largest_compression.time,
-                                     s.solver.max_iterations,
-                                     s.report.iterations,
-                                     s.report.converged ? 1 : 0,
-                                     static_cast<std::int32_t>(sizeof(Real))}};
-  saver.values("numbers", numbers);
+  visit_clock(saver, s);
+  visit_parts(saver, s);
   return result;
 }
 
 void Simulation::restore(const SavedState& saved) {
   State& s = *state_;
-  std::vector<SavedNumbers> numbers;
   Restorer restorer(saved);
-  restorer.values("numbers", numbers);
-  if (numbers.size() != 1 || numbers[0].real_size != static_cast<std::int32_t>(sizeof(Real)))
-    throw Error("checkpoint: it was written by a build of another precision");
-  const SavedNumbers& v = numbers[0];
-  require_possible(v);
-  s.time = v.time, s.dt = v.dt, s.full_dt = v.full_dt, s.last_dt = v.last_dt;
-  s.displacement = v.displacement, s.taken = v.taken, s.given = v.given;
-  s.capillary_work = v.capillary_work, s.list_time = v.list_time;
+  visit_clock(restorer, s);
+  require_possible_clock(s);
   s.restore_walls();
-  visit_arrays(restorer, s);
+  visit_parts(restorer, s);
+  if (s.solver.steps < 0) Restorer::refuse_numbers();
   const Offset n = s.fluid.id.size();
   Restorer::require_fit(s.list_places.size() == n);
   s.fluid.each(Fate::saved, [&](const auto& array) { Restorer::require_fit(array.size() == n); });
   s.fluid.resize(static_cast<Index>(n));
   require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, s.departed.size());
-  s.steps = v.steps, s.builds = v.builds;
-  s.solver = {v.solver_steps,     v.solver_iterations, v.max_iterations, v.worst_residual,
-              v.yield_iterations, v.yield_unconverged, v.solver_retried};
-  s.report = {v.iterations, v.residual, v.velocity_error, v.converged != 0};
-  s.watch.lowest_energy = v.lowest_energy, s.watch.given_before = v.given_before;
-  s.largest_compression = {v.compression, v.compression_time};
   s.last.reset();
   s.rebuild_lists_as_saved();
 }

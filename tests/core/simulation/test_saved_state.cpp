@@ -1,0 +1,102 @@
+// What a checkpoint holds of a simulation.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "backend/error.hpp"
+#include "core/simulation_setups.hpp"
+#include "simulation/simulation.hpp"
+
+namespace slagflow {
+namespace {
+
+using namespace testing_tools;
+
+SimulationSetup with_everything() {
+  SimulationSetup s = moving_dam();
+  s.planes.push_back({0, 1, 0.05});
+  s.fluids[0].surface_tension = 2;
+  return s;
+}
+
+SimulationSetup exact() {
+  SimulationSetup s = dam();
+  s.numerics.yield = YieldModel::exact;
+  return s;
+}
+
+SavedState saved_after(Simulation& simulation, int steps) {
+  for (int k = 0; k < steps; ++k) simulation.step();
+  return simulation.save();
+}
+
+SavedArray& array_of(SavedState& state, const std::string& name) {
+  return *std::find_if(state.begin(), state.end(), [&](const SavedArray& a) { return a.name == name; });
+}
+
+void set_number(SavedState& state, std::size_t place, double value) {
+  std::memcpy(array_of(state, "numbers").bytes.data() + place * sizeof value, &value, sizeof value);
+}
+
+std::string message_of_restoring(const SavedState& state) {
+  Simulation simulation(dam());
+  try {
+    simulation.restore(state);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(SavedState, IsTheSameAfterItWasRestored) {
+  for (const SimulationSetup& setup : {with_everything(), exact()}) {
+    Simulation first(setup), second(setup);
+    const SavedState saved = saved_after(first, 15);
+    second.restore(saved);
+    const SavedState again = second.save();
+    ASSERT_EQ(saved.size(), again.size());
+    for (std::size_t k = 0; k < saved.size(); ++k) {
+      EXPECT_EQ(saved[k].name, again[k].name);
+      EXPECT_EQ(saved[k].bytes, again[k].bytes) << saved[k].name;
+    }
+  }
+}
+
+TEST(SavedState, HasNamesOfTheirOwnForAllArrays) {
+  for (const SimulationSetup& setup : {with_everything(), exact()}) {
+    Simulation simulation(setup);
+    std::vector<std::string> names;
+    for (const SavedArray& array : saved_after(simulation, 1)) names.push_back(array.name);
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  }
+}
+
+TEST(SavedState, WithTooFewOrTooManyNumbersIsRefused) {
+  Simulation simulation(dam());
+  SavedState state = saved_after(simulation, 2);
+  std::vector<std::byte>& numbers = array_of(state, "numbers").bytes;
+  numbers.resize(numbers.size() - sizeof(double));
+  EXPECT_THAT(message_of_restoring(state), testing::HasSubstr("do not belong to this case"));
+  numbers.resize(numbers.size() + 2 * sizeof(double));
+  EXPECT_THAT(message_of_restoring(state), testing::HasSubstr("do not belong to this case"));
+}
+
+TEST(SavedState, WithACountThatNoIntegerHoldsIsRefused) {
+  constexpr std::size_t steps = 9;  // its place among the numbers
+  Simulation simulation(dam());
+  SavedState state = saved_after(simulation, 2);
+  double held = 0;
+  std::memcpy(&held, array_of(state, "numbers").bytes.data() + steps * sizeof held, sizeof held);
+  ASSERT_EQ(held, 2);
+  for (const double count : {1e300, -1e300, std::numeric_limits<double>::quiet_NaN(), -1.0}) {
+    set_number(state, steps, count);
+    EXPECT_THAT(message_of_restoring(state), testing::HasSubstr("not those of a run")) << count;
+  }
+}
+
+}  // namespace
+}  // namespace slagflow
