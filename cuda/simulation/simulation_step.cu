@@ -7,40 +7,47 @@
 
 namespace slagflow {
 
-// The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5). The
-// last two before the end share what is left, so that none is much shorter than the others.
-void Simulation::State::choose_time_step() {
-  dt = full_dt;
-  if (setup.numerics.viscous_step == ViscousStepping::explicit_step) {
-    const double diffusivity = largest_diffusivity(context, fluid, diagnostics);
-    if (diffusivity > 0)
-      dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
+void Simulation::step() {
+  State& s = *state_;
+  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);
+  if (!s.lists_hold()) {
+    s.rebuild();
+    // A particle may not cross a quarter of the support in one step.
+    const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics), s.walls.largest_speed());
+    s.full_dt =
+        smaller(stable_time_step(s.setup), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
-  const double left = setup.end_time - time;
-  if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
+  s.choose_time_step();
+  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);  // with the velocities of this step
+  if (s.fluid.count > 0) {
+    s.last = s.solve_and_move();
+    s.taken += s.last->taken, s.given += s.last->given;
+    s.displacement = std::sqrt(s.last->displacement_squared);
+    s.capillary_work += s.solve_step.dt * s.last->capillary_power;
+    if (s.last->compression > s.largest_compression.value)
+      s.largest_compression = {s.last->compression, s.time};
+    if (!std::isfinite(s.displacement)) s.check_finite();
+  }
+  s.time = s.time_after_step();
+  s.last_dt = s.dt;
+  ++s.steps;
+  const bool too_dense = s.last && s.last->compression > s.setup.limits.max_compression;
+  if (too_dense || s.steps % s.setup.limits.interval == 0) s.look();
 }
 
-// Velocities are half a step behind the places, as in the leapfrog scheme: from the middle of the last step
-// to that of this one. So a fall is g t^2/2 to round-off, and steps of any length follow each other.
-double Simulation::State::velocity_step() const { return 0.5 * (last_dt + dt); }
-
-// A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
-double Simulation::State::time_after_step() const {
-  return dt == setup.end_time - time ? setup.end_time : time + dt;
-}
-
-// All of it is idle unless the solve has converged.
-void Simulation::State::launch_move() {
-  add_wall_forces();
-  shift();
-  StepRecord* record = viscous.record();
-  surface_tension.launch_power(fluid, viscous.velocity(), record);
-  viscous.launch_energy(fluid);
-  Section timer(context, "advance");
-  advance_particles(context, fluid, {viscous.velocity(), dt, list_places.span(), fluids.span()}, record);
-  if (!walls.any())
-    list_age.launch_approach(ordering.fluid_sources(fluid), list_places.span(),
-                             ordering.wall_sources(wall).cell_start, reach, record);
+// The device goes on to the end of the step before the host looks, once; mostly the solve has converged.
+StepRecord Simulation::State::solve_and_move() {
+  solve_step = viscous_step();
+  reserve_step();
+  if (exact_yield())  // most of whose launches come after the first look
+    launch_step();
+  else
+    step_graph.run({dt, last_dt, solve_step.kick}, [this] { launch_step(); });
+  const StepRecord begun = viscous.read_posted();
+  solve(begun);
+  if (begun.solve.converged) return begun;
+  launch_move();
+  return viscous.read();
 }
 
 // What is recorded may not take memory.
@@ -69,19 +76,18 @@ void Simulation::State::launch_step() {
   viscous.post();
 }
 
-// The device goes on to the end of the step before the host looks, once; mostly the solve has converged.
-StepRecord Simulation::State::solve_and_move() {
-  solve_step = viscous_step();
-  reserve_step();
-  if (exact_yield())  // most of whose launches come after the first look
-    launch_step();
-  else
-    step_graph.run({dt, last_dt, solve_step.kick}, [this] { launch_step(); });
-  const StepRecord begun = viscous.read_posted();
-  solve(begun);
-  if (begun.solve.converged) return begun;
-  launch_move();
-  return viscous.read();
+// All of it is idle unless the solve has converged.
+void Simulation::State::launch_move() {
+  add_wall_forces();
+  shift();
+  StepRecord* record = viscous.record();
+  surface_tension.launch_power(fluid, viscous.velocity(), record);
+  viscous.launch_energy(fluid);
+  Section timer(context, "advance");
+  advance_particles(context, fluid, {viscous.velocity(), dt, list_places.span(), fluids.span()}, record);
+  if (!walls.any())
+    list_age.launch_approach(ordering.fluid_sources(fluid), list_places.span(),
+                             ordering.wall_sources(wall).cell_start, reach, record);
 }
 
 bool Simulation::State::knows_wall_forces() const {
@@ -106,32 +112,26 @@ void Simulation::State::shift() {
                   fluid.position.span());
 }
 
-void Simulation::step() {
-  State& s = *state_;
-  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);
-  if (!s.lists_hold()) {
-    s.rebuild();
-    // A particle may not cross a quarter of the support in one step.
-    const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics), s.walls.largest_speed());
-    s.full_dt =
-        smaller(stable_time_step(s.setup), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
+// The longest stable step; that of an explicit viscous step changes with the viscosities, equation (5). The
+// last two before the end share what is left, so that none is much shorter than the others.
+void Simulation::State::choose_time_step() {
+  dt = full_dt;
+  if (setup.numerics.viscous_step == ViscousStepping::explicit_step) {
+    const double diffusivity = largest_diffusivity(context, fluid, diagnostics);
+    if (diffusivity > 0)
+      dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
   }
-  s.choose_time_step();
-  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);  // with the velocities of this step
-  if (s.fluid.count > 0) {
-    s.last = s.solve_and_move();
-    s.taken += s.last->taken, s.given += s.last->given;
-    s.displacement = std::sqrt(s.last->displacement_squared);
-    s.capillary_work += s.solve_step.dt * s.last->capillary_power;
-    if (s.last->compression > s.largest_compression.value)
-      s.largest_compression = {s.last->compression, s.time};
-    if (!std::isfinite(s.displacement)) s.check_finite();
-  }
-  s.time = s.time_after_step();
-  s.last_dt = s.dt;
-  ++s.steps;
-  const bool too_dense = s.last && s.last->compression > s.setup.limits.max_compression;
-  if (too_dense || s.steps % s.setup.limits.interval == 0) s.look();
+  const double left = setup.end_time - time;
+  if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
+}
+
+// Velocities are half a step behind the places, as in the leapfrog scheme: from the middle of the last step
+// to that of this one. So a fall is g t^2/2 to round-off, and steps of any length follow each other.
+double Simulation::State::velocity_step() const { return 0.5 * (last_dt + dt); }
+
+// A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
+double Simulation::State::time_after_step() const {
+  return dt == setup.end_time - time ? setup.end_time : time + dt;
 }
 
 }  // namespace slagflow
