@@ -28,7 +28,7 @@ class Context {
   void release(void* memory, std::size_t bytes) noexcept;
   std::size_t allocated() const { return allocated_; }
 
-  // Scratch memory kept between calls; valid until the next call.
+  // Scratch memory kept between calls; valid until the next call. Grows by a quarter at least.
   void* workspace(std::size_t bytes);
 
   // For the back end: a number on the device that is zero between launches, and room for a result behind it.

@@ -53,10 +53,12 @@ void Context::release(void* memory, std::size_t bytes) noexcept {
 
 void* Context::workspace(std::size_t bytes) {
   if (bytes > workspace_bytes_) {
+    const std::size_t quarter_more = workspace_bytes_ + workspace_bytes_ / 4;
+    const std::size_t wanted = bytes > quarter_more ? bytes : quarter_more;
     release(workspace_, workspace_bytes_);
     workspace_ = nullptr, workspace_bytes_ = 0;
-    workspace_ = allocate(bytes, "workspace");
-    workspace_bytes_ = bytes;
+    workspace_ = allocate(wanted, "workspace");
+    workspace_bytes_ = wanted;
   }
   return workspace_;
 }

@@ -71,6 +71,17 @@ TEST(Buffer, ReservingKeepsContents) {
   EXPECT_EQ(b.capacity(), 8);
 }
 
+TEST(Context, WorkspaceGrowsByAQuarterSoThatGrowthIsRare) {
+  Context context;
+  const std::size_t before = context.allocated();
+  context.workspace(1000);
+  EXPECT_EQ(context.allocated() - before, 1000U);
+  void* place = context.workspace(1001);
+  EXPECT_EQ(context.allocated() - before, 1250U);
+  EXPECT_EQ(context.workspace(1250), place);
+  EXPECT_EQ(context.workspace(10), place);
+}
+
 TEST(Buffer, MoveTakesTheMemoryAlong) {
   Context context;
   Buffer<int> a(context, "a");
