@@ -143,9 +143,9 @@ template <class State>
 void require_possible_clock(const State& s) {
   bool possible = s.time >= 0 && s.dt > 0 && s.full_dt > 0 && s.last_dt >= 0 && s.list_time >= 0 &&
                   s.list_time <= s.time && s.steps >= 0 && s.builds >= 0;
-  for (const double v :
-       {s.time, s.dt, s.full_dt, s.last_dt, s.displacement, s.taken, s.given, s.capillary_work})
-    possible = possible && std::isfinite(v);
+  const double finite[] = {s.time,         s.dt,    s.full_dt, s.last_dt,
+                           s.displacement, s.taken, s.given,   s.capillary_work};
+  for (const double v : finite) possible = possible && std::isfinite(v);
   if (!possible) Restorer::refuse_numbers();
 }
 
