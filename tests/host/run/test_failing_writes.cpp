@@ -28,6 +28,8 @@ struct Failure {
   int step;  // from one n to the next
 };
 
+void PrintTo(const Failure& failure, std::ostream* out) { *out << failure.mode; }
+
 class FailingWrites : public testing::TestWithParam<Failure> {
  protected:
   FailingWrites() {
