@@ -5,7 +5,9 @@
 #include <fstream>
 
 #include "backend/error.hpp"
-#include "host/case/case_sections.hpp"
+#include "host/case/case_keys.hpp"
+#include "host/case/case_reader.hpp"
+#include "host/case/case_rules.hpp"
 
 namespace slagflow {
 namespace {
@@ -50,16 +52,9 @@ Case parse_case(const std::string& text, const std::string& file, const std::vec
   apply_overrides(root, overrides, problems);
   Case c;
   c.file = file;
-  CaseTable top(&root, "", Place{file + ":1", 0}, problems);
-  read_frame(top, c);
-  read_fluids(top, c);
-  read_regions(top, c);
-  read_walls(top, c);
-  read_numerics(top, c);
-  read_limits(top, c);
-  read_output(top, c);
-  read_measures(top, c);
-  top.finish();
+  CaseReader reader(root, Place{file + ":1", 0}, problems);
+  describe(reader, c);
+  reader.finish();
   check_across_tables(c, problems);
   problems.raise();
   for (const auto& [key, place] : problems.places()) c.places[key] = place.text;

@@ -41,7 +41,8 @@ struct StlSpec {
 };
 
 struct ShapeSpec {
-  std::variant<BoxSpec, PlaneSpec, CylinderSpec, SphereSpec, StlSpec> form;
+  using Form = std::variant<BoxSpec, PlaneSpec, CylinderSpec, SphereSpec, StlSpec>;
+  Form form;
   bool outside = false;  // everything outside of the form: a container
 };
 

@@ -1,11 +1,19 @@
 // What concerns several tables of a case at once.
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "fluid/constants.hpp"
-#include "host/case/case_sections.hpp"
+#include "host/case/case_rules.hpp"
 
 namespace slagflow {
+
+const std::vector<std::string> axis_names{"x", "y", "z"};
+const std::vector<std::string> direction_names{"-x", "+x", "-y", "+y", "-z", "+z"};
+
 namespace {
+
+bool plain(unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; }
 
 std::string axis_name(int axis) { return axis_names[static_cast<std::size_t>(axis)]; }
 
@@ -221,6 +229,15 @@ void check_scale(const Case& c, CaseProblems& problems) {
 }
 
 }  // namespace
+
+Direction direction_of(int index) { return {index / 2, index % 2 == 0 ? -1 : 1}; }
+
+int index_of(const Direction& direction) { return 2 * direction.axis + (direction.sign > 0 ? 1 : 0); }
+
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
+         std::all_of(name.begin(), name.end(), plain);
+}
 
 void check_across_tables(const Case& c, CaseProblems& problems) {
   check_two_dimensions(c, problems);

@@ -25,16 +25,6 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-std::string suggestion(const std::string& key, const std::vector<std::string>& known) {
-  std::string nearest;
-  std::size_t best = std::max<std::size_t>(2, key.size() / 3) + 1;
-  for (const std::string& name : known) {
-    const std::size_t distance = edit_distance(key, name);
-    if (distance < best) best = distance, nearest = name;
-  }
-  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
-}
-
 // Keys and strings of a file may hold line breaks; a problem is one line.
 std::string one_line(std::string text) {
   for (char& c : text)
@@ -54,27 +44,39 @@ bool number_of(const Toml& value, double& number) {
 
 }  // namespace
 
-Range any_number(const char* unit) {
+Range any_number(const std::string& unit) {
   Range r;
   r.unit = unit;
   return r;
 }
 
-Range above(double lower, const char* unit) {
+Range above(double lower, const std::string& unit) {
   Range r = any_number(unit);
   r.lower = lower, r.lower_bound = Bound::open;
   return r;
 }
 
-Range at_least(double lower, const char* unit) {
+Range at_least(double lower, const std::string& unit) {
   Range r = any_number(unit);
   r.lower = lower;
   return r;
 }
 
-Range between(double lower, double upper, const char* unit) {
+Range between(double lower, double upper, const std::string& unit) {
   Range r = at_least(lower, unit);
   r.upper = upper;
+  return r;
+}
+
+Range above_to(double lower, double upper, const std::string& unit) {
+  Range r = between(lower, upper, unit);
+  r.lower_bound = Bound::open;
+  return r;
+}
+
+Range inside(double lower, double upper, const std::string& unit) {
+  Range r = above_to(lower, upper, unit);
+  r.upper_bound = Bound::open;
   return r;
 }
 
@@ -94,7 +96,17 @@ std::string Range::text() const {
   } else if (lower <= -largest) {
     shown = "a number of magnitude up to " + show(largest);
   }
-  return *unit ? shown + " [" + unit + "]" : shown;
+  return unit.empty() ? shown : shown + " [" + unit + "]";
+}
+
+std::string suggestion(const std::string& key, const std::vector<std::string>& known) {
+  std::string nearest;
+  std::size_t best = std::max<std::size_t>(2, key.size() / 3) + 1;
+  for (const std::string& name : known) {
+    const std::size_t distance = edit_distance(key, name);
+    if (distance < best) best = distance, nearest = name;
+  }
+  return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
 }
 
 std::string join(const std::vector<std::string>& names) {
@@ -152,11 +164,8 @@ bool CaseTable::has(const char* key) const { return table_ && table_->as_table()
 
 bool CaseTable::is_list(const char* key) const { return has(key) && table_->as_table().at(key).is_array(); }
 
-void CaseTable::accept(const char* key) { find(key, Need::optional, ""); }
-
 void CaseTable::refuse(const char* key, const std::string& reason) {
-  if (!has(key)) return;
-  accept(key);
+  if (!find(key, Need::optional, "")) return;
   problem(key, "does not go with the other keys: " + reason);
 }
 
@@ -280,8 +289,8 @@ bool CaseTable::read(const char* key, std::vector<Vec3d>& target, const std::str
   return true;
 }
 
-bool CaseTable::read(const char* key, std::vector<double>& target, const std::string& allowed) {
-  const Toml* value = find(key, Need::optional, allowed);
+bool CaseTable::read(const char* key, std::vector<double>& target, const std::string& allowed, Need need) {
+  const Toml* value = find(key, need, allowed);
   if (!value) return false;
   if (!value->is_array()) return wrong_type(key, *value, allowed);
   std::vector<double> numbers;
@@ -373,13 +382,18 @@ std::vector<std::pair<std::string, CaseTable>> CaseTable::named_tables(const cha
   return result;
 }
 
-void CaseTable::finish() {
-  if (!table_) return;
-  for (const auto& [name, value] : table_->as_table()) {
-    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    problems_->note(key_path(name), place_of(value));
-    problem(name, "unknown: " + suggestion(name, known_) + "allowed: " + join(known_));
-  }
+std::vector<std::string> CaseTable::unknown() const {
+  std::vector<std::string> names;
+  if (!table_) return names;
+  for (const auto& [name, value] : table_->as_table())
+    if (std::find(known_.begin(), known_.end(), name) == known_.end()) names.push_back(name);
+  return names;
+}
+
+void CaseTable::report_unknown(const std::string& name, const std::string& more) {
+  problems_->note(key_path(name), place_of(table_->as_table().at(name)));
+  problem(name,
+          "unknown: " + (more.empty() ? suggestion(name, known_) : "") + "allowed: " + join(known_) + more);
 }
 
 }  // namespace slagflow

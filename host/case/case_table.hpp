@@ -23,15 +23,17 @@ struct Range {
   static constexpr double largest = 1e30;
   double lower = -largest, upper = largest;
   Bound lower_bound = Bound::closed, upper_bound = Bound::closed;
-  const char* unit = "";
+  std::string unit{};
 
   bool holds(double value) const;
   std::string text() const;  // "> 0 [kg/m^3]"
 };
-Range any_number(const char* unit);
-Range above(double lower, const char* unit);
-Range at_least(double lower, const char* unit);
-Range between(double lower, double upper, const char* unit);
+Range any_number(const std::string& unit);
+Range above(double lower, const std::string& unit);
+Range at_least(double lower, const std::string& unit);
+Range between(double lower, double upper, const std::string& unit);
+Range above_to(double lower, double upper, const std::string& unit);  // without the lower
+Range inside(double lower, double upper, const std::string& unit);    // without both
 
 // What is wrong with a case so far, and where each key stands.
 class CaseProblems {
@@ -63,7 +65,7 @@ class CaseProblems {
 };
 
 // One table, or a table that the file leaves out (all keys missing). Each key must be asked for exactly
-// as the format knows it; finish() then reports the others. A read leaves its target alone and returns
+// as the format knows it; unknown() are the others. A read leaves its target alone and returns
 // false when the key is missing or faulty.
 class CaseTable {
  public:
@@ -79,7 +81,8 @@ class CaseTable {
   // Whether the key holds a number, be it right or wrong.
   bool holds_number(const char* key);
   bool read(const char* key, std::vector<Vec3d>& target, const std::string& allowed);
-  bool read(const char* key, std::vector<double>& target, const std::string& allowed);
+  bool read(const char* key, std::vector<double>& target, const std::string& allowed,
+            Need need = Need::optional);
   // Whether the key holds this word.
   bool says(const char* key, const std::string& word);
   bool read_integer(const char* key, int& target, int lower, int upper);
@@ -87,14 +90,6 @@ class CaseTable {
   // A string out of a list; the target becomes its index.
   bool read_choice(const char* key, int& target, const std::vector<std::string>& names,
                    Need need = Need::optional);
-  template <class E>
-  bool read_enum(const char* key, E& target, const std::vector<std::string>& names,
-                 Need need = Need::optional) {
-    int index = static_cast<int>(target);
-    const bool found = read_choice(key, index, names, need);
-    target = static_cast<E>(index);
-    return found;
-  }
 
   CaseTable table(const char* key);
   // The entries of [[key]], or of an inline list of tables.
@@ -104,14 +99,15 @@ class CaseTable {
 
   bool has(const char* key) const;
   bool is_list(const char* key) const;
-  // Lets finish() pass over a key that could not be read because of another one's fault.
-  void accept(const char* key);
   // Reports the key, if it is given, as one that does not go with the others.
   void refuse(const char* key, const std::string& reason);
   const std::string& path() const { return path_; }
   std::string key_path(const std::string& key) const;
   void problem(const std::string& key, const std::string& what);
-  void finish();
+  // The keys that are given and were not asked for.
+  std::vector<std::string> unknown() const;
+  // Of one of them; `more` goes to the end of the message.
+  void report_unknown(const std::string& key, const std::string& more);
 
  private:
   const Toml* find(const char* key, Need need, const std::string& allowed);
@@ -124,6 +120,9 @@ class CaseTable {
   CaseProblems* problems_;
   std::vector<std::string> known_;
 };
+
+// "did you mean 'x'? ", or nothing.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known);
 
 // "a, b, c"
 std::string join(const std::vector<std::string>& names);

@@ -1,8 +1,12 @@
 // A fluid given as a liquid with solid particles in it. Used by the parser alone.
 #pragma once
 
+#include <array>
+#include <string>
+#include <vector>
+
+#include "fluid/models.hpp"
 #include "fluid/rheology/suspension.hpp"
-#include "host/case/case.hpp"
 #include "host/case/case_table.hpp"
 
 namespace slagflow {
@@ -14,23 +18,24 @@ struct SuspensionSpec {
   double solid_density = 0;     // [kg/m^3]
   double liquid_viscosity = 0;  // [Pa s]
   bool complete = false;        // no key missing or faulty
+
+  double density() const { return (1 - solid_fraction) * liquid_density + solid_fraction * solid_density; }
+  double viscosity() const { return liquid_viscosity * relative_viscosity(law, solid_fraction); }
 };
 
 // The numbers a case file may give for a parameter.
 Range range_of(const ParameterInfo& parameter);
 
-// Whether a table of a fluid describes a suspension: it has any key that only a suspension has.
-bool is_suspension(const CaseTable& fluid);
+// The solid fractions for which the law holds.
+Range fractions(const Suspension& law);
 
-// Reads the keys that describe the suspension, and sets the density of the mixture.
-SuspensionSpec read_suspension(CaseTable& t, FluidSpec& fluid);
+// A yield stress over the solid fraction: linear between rows [phi, tau], 0 below the first.
+using YieldRows = std::vector<std::array<double, 2>>;
+inline constexpr const char* yield_rows_allowed =
+    "rows [solid fraction from 0 to below 1, yield stress >= 0 in Pa], the fraction increasing";
 
-// The parameter that the solids raise: that of the liquid times the relative viscosity.
-void read_raised(CaseTable& t, const SuspensionSpec& suspension, const ParameterInfo& parameter,
-                 double& value);
-
-// A yield stress as a number, or as a table [[phi, tau], ...]: linear between its rows, 0 below the first.
-void read_yield_stress(CaseTable& t, const SuspensionSpec& suspension, const ParameterInfo& parameter,
-                       double& value);
+// What is wrong with the rows, and what is allowed; empty: nothing.
+std::string fault_of(const YieldRows& rows, const SuspensionSpec& suspension);
+double yield_stress_at(double solid_fraction, const YieldRows& rows);
 
 }  // namespace slagflow

@@ -31,6 +31,13 @@ std::string number_text(double value) {
   return text.data();
 }
 
+// On one line where nothing in it needs more.
+std::string array_text(const Json::Array& array, int level) {
+  std::string out;
+  for (const Json& value : array) out += (out.empty() ? "" : ", ") + value.text(level);
+  return "[" + out + "]";
+}
+
 }  // namespace
 
 Json& Json::set(const std::string& key, Json value) {
@@ -61,6 +68,8 @@ std::string Json::text(int level) const {
   if (const auto* real = std::get_if<double>(&value_)) return number_text(*real);
   if (const auto* integer = std::get_if<std::int64_t>(&value_)) return std::to_string(*integer);
   if (const auto* string = std::get_if<std::string>(&value_)) return quoted(*string);
+  if (const auto* flag = std::get_if<bool>(&value_)) return *flag ? "true" : "false";
+  if (const auto* array = std::get_if<Array>(&value_)) return array_text(*array, level);
   if (is_null()) return "null";
   if (entries().empty()) return "{}";
   const std::string indent(2 * static_cast<std::size_t>(level) + 2, ' ');

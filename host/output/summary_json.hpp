@@ -1,4 +1,5 @@
-// A JSON value, for the summary of a run. Keys keep the order in which they were added.
+// A JSON value, for the summary of a run and the schema of cases. Keys keep the order in which they were
+// added.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,10 @@ namespace slagflow {
 class Json {
  public:
   using Object = std::vector<std::pair<std::string, Json>>;
+  using Array = std::vector<Json>;
 
-  Json() = default;                      // null
+  Json() = default;  // null
+  Json(bool value) : value_(value) {}
   Json(double value) : value_(value) {}  // infinite and not-a-number: null
   Json(int value) : value_(static_cast<std::int64_t>(value)) {}
   Json(std::int64_t value) : value_(value) {}
@@ -21,6 +24,7 @@ class Json {
   Json(const char* text) : value_(std::string(text)) {}
   Json(std::string text) : value_(std::move(text)) {}
   Json(Object object) : value_(std::move(object)) {}
+  Json(Array array) : value_(std::move(array)) {}
   static Json object() { return Json(Object{}); }
 
   // Of an object: appends, or replaces the value of a key that is there. Returns itself for the next.
@@ -35,7 +39,7 @@ class Json {
   std::string text(int level = 0) const;
 
  private:
-  std::variant<std::monostate, double, std::int64_t, std::string, Object> value_;
+  std::variant<std::monostate, double, std::int64_t, std::string, Object, bool, Array> value_;
 };
 
 }  // namespace slagflow

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "backend/error.hpp"
-#include "host/case/case_sections.hpp"
+#include "host/case/case_rules.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/output/provenance.hpp"
 #include "host/run/run_folder.hpp"

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "backend/error.hpp"
-#include "host/case/case_sections.hpp"
+#include "host/case/case_rules.hpp"
 #include "host/rheometry/rheometry_units.hpp"
 
 namespace slagflow {

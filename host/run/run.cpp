@@ -6,7 +6,7 @@
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
-#include "host/case/case_sections.hpp"
+#include "host/case/case_rules.hpp"
 #include "host/geometry/geometry.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"

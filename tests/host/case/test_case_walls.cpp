@@ -134,7 +134,8 @@ TEST(CaseWalls, NameWhatIsWrongWithAMotion) {
   EXPECT_THAT(message_of("motion = {type='constant', start=2, stop=1}"),
               HasSubstr("'wall.0.motion.stop': value 1"));
   EXPECT_THAT(message_of("remove_at = -1"), HasSubstr("'wall.0.remove_at': value -1"));
-  EXPECT_THAT(table("displacement=[[0,0,0]]"), HasSubstr("lacks the key 'time'"));
+  EXPECT_THAT(table("displacement=[[0,0,0]]"),
+              HasSubstr("'wall.0.motion.time': missing: required: increasing times [s]"));
   EXPECT_THAT(table("time=[0, 2, 1], displacement=[[0,0,0],[1,0,0],[1,0,0]]"),
               HasSubstr("'wall.0.motion.time': value 1.0 follows 2.0: allowed: increasing times"));
   EXPECT_THAT(table("time=[0], displacement=[[0,0,0]]"), HasSubstr("'wall.0.motion.time': has 1 entries"));

@@ -1,0 +1,40 @@
+// The tables of a case file: a function each, which declares its keys.
+#pragma once
+
+#include "host/case/case.hpp"
+#include "host/case/case_visitor.hpp"
+
+namespace slagflow {
+
+// All of them, in the order of a resolved case.
+void describe(CaseVisitor&, Case&);
+
+void describe_frame(CaseVisitor&, Case&);     // [case] [resolution] [gravity] [body_force] [domain]
+void describe_fluids(CaseVisitor&, Case&);    // [fluid.NAME]
+void describe_regions(CaseVisitor&, Case&);   // [[region]]
+void describe_walls(CaseVisitor&, Case&);     // [[wall]]
+void describe(CaseVisitor&, WallMotion&);     // wall.motion
+void describe_numerics(CaseVisitor&, Case&);  // [numerics]
+void describe(CaseVisitor&, NumericsSetup&);  // inside of it
+void describe(CaseVisitor&, LimitSetup&);     // inside of [limits]
+void describe(CaseVisitor&, OutputSpec&);     // inside of [output]
+void describe_measures(CaseVisitor&, Case&);  // [[measure]]
+
+// Lists of shapes; STL files are looked for next to the case file.
+void describe_shapes(CaseVisitor&, const Key&, std::vector<ShapeSpec>&, const std::string& case_file);
+
+// A name that must be plain: whether it is.
+bool describe_name(CaseVisitor&, const Key&, std::string& name);
+// An entry's name that no earlier entry has.
+template <class T>
+void describe_own_name(CaseVisitor& v, const Key& k, const std::vector<T>& entries, T& entry) {
+  if (!describe_name(v, k, entry.name)) return;
+  for (const T* other = entries.data(); other != &entry; ++other)
+    if (other->name == entry.name)
+      return v.problem("name", "value \"" + entry.name + "\" is given twice: allowed: a name of its own");
+}
+
+// More entries than there are numbers for.
+void check_count(CaseVisitor&, const char* key, std::size_t count);
+
+}  // namespace slagflow

@@ -1,0 +1,54 @@
+// [[region]]: where fluid is at the start.
+#include "host/case/case_keys.hpp"
+
+namespace slagflow {
+namespace {
+
+const Words pressure_names{"hydrostatic", "zero"};
+
+void describe_fluid_of(CaseVisitor& v, const Case& c, RegionSpec& region) {
+  Words names;
+  for (const FluidSpec& fluid : c.fluids) names.push_back(fluid.name);
+  Key k = key("fluid", "NAME of a fluid").by_default("the only one");
+  if (names.size() > 1) k.need = Need::required;
+  v.reference(k, region.fluid, names, "a fluid");
+}
+
+void describe_wave(CaseVisitor& v, WaveSpec& wave) {
+  v.vector(required("amplitude", "a in a sin(2π k·x + phase)"), wave.amplitude, any_number("m/s"));
+  v.vector(required("wave_vector", "k, one over the wavelength"), wave.wave_vector, any_number("1/m"));
+  v.number(key("phase", "of the sine"), wave.phase, any_number("rad"));
+}
+
+void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
+  describe_fluid_of(v, c, region);
+  describe_shapes(v, required("shapes", "the region is their union, less that of subtract; see Shapes"),
+                  region.shapes, c.file);
+  describe_shapes(v, key("subtract", "what is taken away"), region.subtract, c.file);
+  v.vector(key("velocity", "at the start"), region.velocity, any_number("m/s"));
+  v.vector(key("angular_velocity", "rigid rotation about center, added to velocity"), region.angular_velocity,
+           any_number("rad/s"));
+  v.vector(key("center", "of angular_velocity"), region.center, any_number("m"));
+  v.list(key("waves", "plane waves of velocity, added to it. Two of them make Taylor and Green's vortices"),
+         region.waves, [&](WaveSpec& wave) { describe_wave(v, wave); });
+  int pressure = static_cast<int>(region.pressure);
+  v.choice_or_number(key("pressure",
+                         "hydrostatic: the weight of all fluid above, see Pressure at the start; a number: "
+                         "the same everywhere, for flows without a free surface"),
+                     pressure, pressure_names, region.uniform_pressure, at_least(0, "Pa"));
+  region.pressure = static_cast<InitialPressure>(pressure);
+  v.number(
+      key("jitter",
+          "particles start evenly spread within this distance of their lattice site along each axis, the "
+          "same in every run"),
+      region.jitter, between(0, 0.5, "spacings"));
+}
+
+}  // namespace
+
+void describe_regions(CaseVisitor& v, Case& c) {
+  v.list(required("region", "one or more: where fluid is at the start"), c.regions,
+         [&](RegionSpec& region) { describe_region(v, c, region); });
+}
+
+}  // namespace slagflow
