@@ -45,11 +45,11 @@ void check_count(CaseVisitor& v, const char* k, std::size_t count) {
 }
 
 void describe_frame(CaseVisitor& v, Case& c) {
-  v.table(key("case", "what the case is"), [&] {
+  v.table(required("case", "name of the case"), [&] {
     describe_name(v, required("name", "letters, digits, _ - . ; names the default folder runs/NAME"), c.name);
     v.text(key("description", "what it shows"), c.description);
   });
-  v.table(key("resolution", "how fine"), [&] {
+  v.table(required("resolution", "how fine the particles are, and in how many dimensions"), [&] {
     v.number(required("spacing",
                       "distance of the particles at the start; 2e-6 to 1e4, with yield = \"exact\" 5e-6 to "
                       "1e3: single precision does not hold the powers of other lengths"),
@@ -62,14 +62,14 @@ void describe_frame(CaseVisitor& v, Case& c) {
               c.dimensions, {2, 3});
     v.vector(key("origin", "particles start at origin + (i + 1/2) spacing"), c.origin, any_number("m"));
   });
-  v.table(key("gravity", "weight"),
+  v.table(key("gravity", "what all fluid weighs"),
           [&] { v.vector(key("acceleration", "of gravity"), c.gravity, any_number("m/s^2")); });
   v.table(key("body_force", "a further force on all fluid"), [&] {
     v.vector(
         key("acceleration", "acts as gravity does, but has no hydrostatic pressure: drives periodic flows"),
         c.body_force, any_number("m/s^2"));
   });
-  v.table(key("domain", "the box in which particles are"), [&] { describe_domain(v, c); });
+  v.table(required("domain", "the box in which particles are"), [&] { describe_domain(v, c); });
 }
 
 void describe(CaseVisitor& v, Case& c) {
@@ -79,7 +79,7 @@ void describe(CaseVisitor& v, Case& c) {
   describe_walls(v, c);
   describe_numerics(v, c);
   v.table(key("limits", "what ends a run, see Stopping, resuming, failing"), [&] { describe(v, c.limits); });
-  v.table(key("output", "how long, and what is written"), [&] { describe(v, c.output); });
+  v.table(required("output", "how long, and what is written"), [&] { describe(v, c.output); });
   describe_measures(v, c);
 }
 

@@ -33,6 +33,11 @@ void describe(CaseVisitor& v, OutputSpec& o) {
                                        "steps are no longer than half of it, and the last two before it "
                                        "share what is left, so that one ends there"),
                               o.end_time, above(0, "s"));
+  v.number(key("until",
+               "the run ends with the first step at or after it, short of end_time or beyond, where steps "
+               "are whole again; --until sets it")
+               .or_word("end_time", 0),
+           o.until, above(0, "s"));
   const auto interval = [&](double most) { return timed ? at_least(o.end_time / most, "s") : above(0, "s"); };
   if (v.takes_defaults()) o.interval = o.end_time / 50;
   v.number(key("interval", "between snapshots").by_default("end_time/50"), o.interval,
@@ -40,14 +45,6 @@ void describe(CaseVisitor& v, OutputSpec& o) {
   if (v.takes_defaults()) o.history_interval = o.interval / 10;
   v.number(key("history_interval", "between lines of history.csv").by_default("interval/10"),
            o.history_interval, interval(most_history_lines));
-  Range until = above(0, "s");
-  if (timed) until.upper = longest_run(o);
-  v.number(
-      key("until",
-          "the run ends with the first step at or after it, short of end_time or beyond, where steps are "
-          "whole again; --until sets it")
-          .or_word("end_time", 0),
-      o.until, until);
   v.flag(key("walls", "write walls.vtkhdf"), o.walls);
   v.number(key("checkpoint_interval",
                "of wall time, between checkpoints, the first at the start; 0: only at the end "
@@ -56,6 +53,10 @@ void describe(CaseVisitor& v, OutputSpec& o) {
   v.text(key("stop_after",
              "name of a front or jet: the run ends when it has arrived, at end_time at the latest"),
          o.stop_after);
+  Range until = above(0, "s, or \"end_time\"");
+  until.upper = longest_run(o);
+  if (timed && o.until > until.upper)
+    v.problem("until", "value " + show(o.until) + " is out of range: allowed: " + until.text());
 }
 
 }  // namespace slagflow

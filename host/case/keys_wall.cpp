@@ -15,7 +15,7 @@ void describe_slip(CaseVisitor& v, WallSpec& wall) {
   v.choice(key("slip", "of the fluid along the wall"), wall.slip, slip_names);
   if (const auto with = v.only(wall.slip == WallSlip::partial_slip, {"slip", {"partial_slip"}},
                                "only slip = \"partial_slip\" has a slip length"))
-    v.number(required("slip_length", "b in (14)"), wall.slip_length, above(0, "m"));
+    v.number(required("slip_length", "slip length b in (14)"), wall.slip_length, above(0, "m"));
 }
 
 void describe_surface(CaseVisitor& v, WallSpec& wall) {
@@ -78,7 +78,7 @@ void describe_rows(CaseVisitor& v, WallMotion& m) {
 void describe_steady(CaseVisitor& v, WallMotion& m) {
   if (const auto with = v.only(m.kind == MotionKind::constant || m.kind == MotionKind::ramp,
                                {"type", {"constant", "ramp"}})) {
-    v.vector(key("velocity", "v"), m.velocity, any_number("m/s"));
+    v.vector(key("velocity", "v, of the shift"), m.velocity, any_number("m/s"));
     v.vector(key("angular_velocity", "ω, about center"), m.angular_velocity, any_number("rad/s"));
   }
   if (const auto with = v.only(m.kind == MotionKind::ramp, {"type", {"ramp"}}))
@@ -86,10 +86,10 @@ void describe_steady(CaseVisitor& v, WallMotion& m) {
 }
 
 void describe_sine(CaseVisitor& v, WallMotion& m) {
-  v.vector(key("amplitude", "A"), m.amplitude, any_number("m"));
-  v.vector(key("angular_amplitude", "B, about center"), m.angular_amplitude, any_number("rad"));
-  v.number(required("frequency", "f"), m.frequency, above(0, "Hz"));
-  v.number(key("phase", "φ"), m.phase, any_number("rad"));
+  v.vector(key("amplitude", "A, of the shift"), m.amplitude, any_number("m"));
+  v.vector(key("angular_amplitude", "B, of the turn about center"), m.angular_amplitude, any_number("rad"));
+  v.number(required("frequency", "f, of the sine"), m.frequency, above(0, "Hz"));
+  v.number(key("phase", "φ, of the sine"), m.phase, any_number("rad"));
 }
 
 void describe_wall(CaseVisitor& v, Case& c, WallSpec& wall) {

@@ -92,16 +92,19 @@ std::string all_tables() {
          "Commands: slagflow --help.\n";
 }
 
-// Keys whose path or last word the topic is; tables by their entries too.
+// Keys whose path the topic is; if there is none, tables by an entry, as wall.0; if there is none, keys of
+// that name.
 Keys matches(const std::string& topic) {
   const std::vector<std::string> parts = parts_of(topic);
   Keys found;
-  for (const CatalogueKey& k : catalogue().keys())
-    if (is_topic(parts, parts_of(k.path())) || (k.is_table() && is_topic(parts, parts_of(k.inside))))
-      found.push_back(&k);
-  if (found.empty() && parts.size() == 1)
+  const auto take = [&](const auto& is_meant) {
+    if (!found.empty()) return;
     for (const CatalogueKey& k : catalogue().keys())
-      if (k.name == topic) found.push_back(&k);
+      if (is_meant(k)) found.push_back(&k);
+  };
+  take([&](const CatalogueKey& k) { return is_topic(parts, parts_of(k.path())); });
+  take([&](const CatalogueKey& k) { return k.is_table() && is_topic(parts, parts_of(k.inside)); });
+  take([&](const CatalogueKey& k) { return k.name == topic; });
   return found;
 }
 

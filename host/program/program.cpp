@@ -12,16 +12,23 @@
 #include "host/case/case_table.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/provenance.hpp"
+#include "host/program/command_line.hpp"
 #include "host/program/info.hpp"
+#include "host/program/key_help.hpp"
 #include "host/rheometry/rheometry.hpp"
 #include "host/run/check.hpp"
 #include "host/run/run.hpp"
+#include "version.hpp"
 
 namespace slagflow {
 namespace {
 
+enum class HelpForm { text, page, schema, completion, man };
+
 struct Arguments {
   std::string file;
+  std::string topic;
+  HelpForm help = HelpForm::text;
   std::vector<std::string> overrides;
   RunOptions run;
   RheometryOptions rheometry;
@@ -70,6 +77,41 @@ int info(const Arguments& arguments) {
 
 int rheometry(const Arguments& arguments) {
   run_rheometry(arguments.rheometry);
+  return 0;
+}
+
+CommandLine command_line(const CLI::App& app) {
+  CommandLine line{app.get_description(), {}};
+  for (const CLI::App* command : app.get_subcommands({})) {
+    line.commands.push_back({command->get_name(), command->get_description(), {}});
+    for (const CLI::Option* option : command->get_options()) {
+      const bool positional = option->get_positional(), flag = option->get_items_expected_max() == 0;
+      const std::string type = option->get_type_name();
+      line.commands.back().options.push_back({option->get_name(positional, !positional),
+                                              flag ? "" : type.substr(0, type.find(':')),
+                                              option->get_description(), positional});
+    }
+  }
+  return line;
+}
+
+int help(const Arguments& arguments, const CLI::App& app) {
+  switch (arguments.help) {
+    case HelpForm::page:
+      print(key_page());
+      return 0;
+    case HelpForm::schema:
+      print(key_schema());
+      return 0;
+    case HelpForm::completion:
+      print(bash_completion(command_line(app)));
+      return 0;
+    case HelpForm::man:
+      print(man_page(command_line(app), SLAGFLOW_VERSION));
+      return 0;
+    default:
+      print(key_help(arguments.topic));
+  }
   return 0;
 }
 
@@ -128,6 +170,20 @@ CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
   return command;
 }
 
+CLI::App* add_help(CLI::App& app, Arguments& arguments) {
+  CLI::App* const command = app.add_subcommand("help", "what the keys of a case file mean");
+  command->add_option("topic", arguments.topic, "key or table; without it all tables")->type_name("KEY");
+  const auto form = [&](const char* name, HelpForm value, const char* what) {
+    command->add_flag_callback(
+        name, [&arguments, value] { arguments.help = value; }, what);
+  };
+  form("--page", HelpForm::page, "all keys, as Markdown");
+  form("--schema", HelpForm::schema, "a JSON schema of case files, for editors");
+  form("--completion", HelpForm::completion, "completion of this command line for bash");
+  form("--man", HelpForm::man, "the manual page");
+  return command;
+}
+
 int dispatch(int argc, const char* const* argv) {
   CLI::App app("Smoothed-particle hydrodynamics of slag with a yield stress and a free surface.", "slagflow");
   Arguments arguments;
@@ -147,6 +203,7 @@ int dispatch(int argc, const char* const* argv) {
   CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
   CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);
+  CLI::App* const help_command = add_help(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -155,6 +212,7 @@ int dispatch(int argc, const char* const* argv) {
   if (run_command->parsed()) return run(arguments);
   if (resume_command->parsed()) return resume(arguments);
   if (rheometry_command->parsed()) return rheometry(arguments);
+  if (help_command->parsed()) return help(arguments, app);
   return check_command->parsed() ? check(arguments) : info(arguments);
 }
 
