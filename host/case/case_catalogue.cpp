@@ -277,8 +277,8 @@ std::size_t CaseCataloguer::enter_named(const Key& k, std::size_t) {
 
 void CaseCataloguer::leave() { tables_.pop_back(); }
 
-bool CaseCataloguer::enter_only(bool, Where where, std::string reason) {
-  conditions_.emplace_back(std::move(where), std::move(reason));
+bool CaseCataloguer::enter_only(bool, const Where& where, const std::string& reason) {
+  conditions_.emplace_back(where, reason);
   return true;
 }
 

@@ -95,7 +95,7 @@ class CaseCataloguer : public CaseVisitor {
   void enter_named_entry(std::size_t, std::string& name) override { name = "NAME"; }
   void leave() override;
   void leave_list() override {}
-  bool enter_only(bool holds, Where, std::string reason) override;
+  bool enter_only(bool holds, const Where&, const std::string& reason) override;
   void leave_only() override;
 
  private:

@@ -29,7 +29,7 @@ class CaseReader : public CaseVisitor {
   bool choice_or_number(const Key&, int& index, const Words&, double&, const Range&) override;
 
   bool given(std::initializer_list<const char*> keys) const override;
-  void problem(const std::string& key, const std::string& what) override;
+  void problem(const std::string& name, const std::string& what) override;
   // Reports the keys of the file's top level that are not known. Once, at the end.
   void finish();
 

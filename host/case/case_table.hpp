@@ -107,7 +107,7 @@ class CaseTable {
   // The keys that are given and were not asked for.
   std::vector<std::string> unknown() const;
   // Of one of them; `more` goes to the end of the message.
-  void report_unknown(const std::string& key, const std::string& more);
+  void report_unknown(const std::string& name, const std::string& more);
 
  private:
   const Toml* find(const char* key, Need need, const std::string& allowed);
@@ -122,7 +122,7 @@ class CaseTable {
 };
 
 // "did you mean 'x'? ", or nothing.
-std::string suggestion(const std::string& name, const std::vector<std::string>& known);
+std::string suggestion(const std::string& key, const std::vector<std::string>& known);
 
 // "a, b, c"
 std::string join(const std::vector<std::string>& names);

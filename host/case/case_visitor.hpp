@@ -119,7 +119,7 @@ class CaseVisitor {
   // if (const auto with = v.only(type == jet, {"type", {"jet"}})) ...: keys that belong to an entry only
   // where `holds`. Elsewhere they are refused, for the reason, or unknown.
   class Only;
-  Only only(bool holds, Where where, std::string reason = "");
+  Only only(bool holds, const Where& where, const std::string& reason = "");
 
   // Whether any of the keys is given, be it right or wrong.
   virtual bool given(std::initializer_list<const char*>) const { return false; }
@@ -136,7 +136,7 @@ class CaseVisitor {
   virtual void enter_named_entry(std::size_t index, std::string& name) = 0;
   virtual void leave() = 0;  // a table or an entry
   virtual void leave_list() = 0;
-  virtual bool enter_only(bool holds, Where, std::string /*reason*/) { return holds; }
+  virtual bool enter_only(bool holds, const Where&, const std::string& /*reason*/) { return holds; }
   virtual void leave_only() {}
 };
 
@@ -153,8 +153,8 @@ class CaseVisitor::Only {
   bool described_;
 };
 
-inline CaseVisitor::Only CaseVisitor::only(bool holds, Where where, std::string reason) {
-  return {*this, enter_only(holds, std::move(where), std::move(reason))};
+inline CaseVisitor::Only CaseVisitor::only(bool holds, const Where& where, const std::string& reason) {
+  return {*this, enter_only(holds, where, reason)};
 }
 
 }  // namespace slagflow

@@ -96,8 +96,7 @@ void describe_rheology(CaseVisitor& v, FluidSpec& fluid, const SuspensionSpec* s
   if (!v.choice(required("rheology", "how viscosity depends on the shear rate, see Rheologies"),
                 fluid.rheology, names_of(rheologies)))
     return;
-  for (std::size_t kind = 0; kind < rheologies.size(); ++kind) {
-    const RheologyInfo& info = rheologies[kind];
+  for (const RheologyInfo& info : rheologies) {
     if (const auto with = v.only(&fluid.info() == &info, {"rheology", {info.name}}))
       for (int k = 0; k < info.parameter_count; ++k)
         describe_parameter(v, info.parameters[k], fluid.parameters[static_cast<std::size_t>(k)], suspension);

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "host/case/case_catalogue.hpp"
 #include "host/program/command_line.hpp"
 
@@ -65,28 +67,21 @@ std::string values() {
   return text;
 }
 
-}  // namespace
-
-std::string bash_completion(const CommandLine& line) {
-  std::string options;
-  for (const Command& command : line.commands) options += branch(command.name, options_of(command));
-  return R"(# Completion of slagflow for bash, as `slagflow help --completion` prints it.
+// With @WORDS@ in the places of what the declarations say.
+const char* const script = R"(# Completion of slagflow for bash, as `slagflow help --completion` prints it.
 _slagflow_values() {
   case $1 in
-)" + values() +
-         R"(  esac
+@VALUES@  esac
 }
 _slagflow_options() {
   case $1 in
-)" + options +
-         R"(  esac
+@OPTIONS@  esac
 }
 _slagflow() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=${COMP_WORDS[1]}
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
-    COMPREPLY=($(compgen -W ')" +
-         commands_of(line) + R"(' -- "$cur"))
+    COMPREPLY=($(compgen -W '@COMMANDS@' -- "$cur"))
     return
   fi
   # bash takes KEY, = and VALUE of --set KEY=VALUE for three words.
@@ -101,8 +96,7 @@ _slagflow() {
   fi
   case $prev in
     --set)
-      COMPREPLY=($(compgen -W ')" +
-         keys_to_set() + R"(' -- "$cur"))
+      COMPREPLY=($(compgen -W '@KEYS@' -- "$cur"))
       compopt -o nospace
       return
       ;;
@@ -113,8 +107,7 @@ _slagflow() {
   esac
   case $command,$cur in
     *,-*) _slagflow_options "$command" ;;
-    help,*) COMPREPLY=($(compgen -W ')" +
-         topics() + R"(' -- "$cur")) ;;
+    help,*) COMPREPLY=($(compgen -W '@TOPICS@' -- "$cur")) ;;
     resume,*) COMPREPLY=($(compgen -d -- "$cur")) ;;
     run,* | check,*) COMPREPLY=($(compgen -f -X '!*.toml' -- "$cur") $(compgen -d -S / -- "$cur")) ;;
     *) COMPREPLY=($(compgen -f -- "$cur")) ;;
@@ -122,6 +115,17 @@ _slagflow() {
 }
 complete -F _slagflow slagflow
 )";
+
+}  // namespace
+
+std::string bash_completion(const CommandLine& line) {
+  std::string options, text = script;
+  for (const Command& command : line.commands) options += branch(command.name, options_of(command));
+  for (const auto& [mark, words] : {std::pair{"@VALUES@", values()}, std::pair{"@OPTIONS@", options},
+                                    std::pair{"@COMMANDS@", commands_of(line)},
+                                    std::pair{"@KEYS@", keys_to_set()}, std::pair{"@TOPICS@", topics()}})
+    text.replace(text.find(mark), std::string(mark).size(), words);
+  return text;
 }
 
 }  // namespace slagflow
