@@ -116,7 +116,9 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
            n.sound_speed, above(0, "m/s"));
   v.number(key("courant", "equation (13)"), n.courant, above_to(0, 1.2, ""));
   v.number(key("max_time_step", "0: no further limit"), n.max_time_step, at_least(0, "s"));
-  v.number(key("density_diffusion", "δ of equation (10)")
+  v.number(key("density_diffusion",
+               "δ of equation (10); above about 0.28/courant it shortens the time step, as the diffusion "
+               "would be unstable")
                .by_default("0.1; 0.01 where a fluid has surface tension"),
            n.density_diffusion, between(0, 1, ""));
   v.number(key("tension_limit",

@@ -9,7 +9,7 @@ void describe(CaseVisitor& v, LimitSetup& l) {
   v.number(key("max_speed", "auto: three times the sound speed").or_word("auto", 0), l.max_speed,
            above(0, "m/s"));
   v.number(key("max_compression",
-               "(ρ − ρ₀)/ρ₀. An impact at a fifth of the sound speed has 0.25; the message tells "
+               "(ρ − ρ₀)/ρ₀ of any step. An impact at a fifth of the sound speed has 0.25; the message tells "
                "the sound_speed to take"),
            l.max_compression, above_to(0, 1, ""));
   v.number(key("max_lost_fraction", "of the particles, through all faces of the domain"), l.max_lost_fraction,
