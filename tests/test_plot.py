@@ -17,6 +17,7 @@ try:
     import h5py
     import matplotlib.image
     import numpy as np
+    from PIL import Image
 except ImportError as missing:
     print(f"SKIPPED: {missing}")
     sys.exit(77)
@@ -128,6 +129,13 @@ class Plot(unittest.TestCase):
         self.assertEqual(self.plot(self.folder, "--times", "0,0.1,0.31").returncode, 0)
         three = self.picture_size("flow.png")[1]
         self.assertGreater(three, 1.5 * one)
+
+    def test_movie_has_a_frame_for_each_time(self):
+        self.make_run([0, 0.1, 0.2], [5, 5, 2])
+        done = self.plot(self.folder, "--movie")
+        self.assertIn("flow.gif", done.stdout)
+        with Image.open(self.folder / "pictures/flow.gif") as movie:
+            self.assertEqual(movie.n_frames, 3)
 
     def test_two_dimensions_have_the_side_view_only(self):
         self.make_run([0, 0.1], [50, 50])

@@ -6,6 +6,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from PIL import Image
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.ticker import MaxNLocator
@@ -188,12 +189,30 @@ def draw(run, steps, path):
     """Writes the picture: a row for each step, a column for each view."""
     scene = Scene(run, steps)
     panels = panels_of(scene)
-    layout = Layout(panels, len(steps))
-    norm = Normalize(0, speed_limit(run, steps))
-    figure = plt.figure(figsize=(layout.width, layout.height), facecolor="white")
-    figure.text(0.5, 1 - 0.2 / layout.height, run.title.replace("_", " "), ha="center", va="center", fontsize=11)
-    add_colour_bar(figure, norm, layout)
-    for row in range(len(steps)):
-        draw_row(figure, layout, scene, panels, row, norm)
+    figure = figure_of(scene, panels, Layout(panels, len(steps)), Normalize(0, speed_limit(run, steps)))
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
+
+
+def figure_of(scene, panels, layout, norm):
+    figure = plt.figure(figsize=(layout.width, layout.height), facecolor="white")
+    figure.text(0.5, 1 - 0.2 / layout.height, scene.run.title.replace("_", " "), ha="center", va="center", fontsize=11)
+    add_colour_bar(figure, norm, layout)
+    for row in range(len(scene.steps)):
+        draw_row(figure, layout, scene, panels, row, norm)
+    return figure
+
+
+def draw_movie(run, path, milliseconds=100):
+    """Writes a GIF of all steps, one a frame, to one scale and one map of colours."""
+    steps = list(range(len(run.fluid.times)))
+    panels = panels_of(Scene(run, steps))
+    layout, norm = Layout(panels, 1), Normalize(0, speed_limit(run, steps))
+    frames = []
+    for step in steps:
+        figure = figure_of(Scene(run, [step]), panels, layout, norm)
+        figure.set_dpi(DPI / 2)
+        figure.canvas.draw()
+        frames.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB"))
+        plt.close(figure)
+    frames[0].save(path, save_all=True, append_images=frames[1:], duration=milliseconds, loop=0)
