@@ -8,7 +8,7 @@ add_custom_command(TARGET slagflow POST_BUILD
   COMMAND slagflow help --schema > ${said}/slagflow.schema.json)
 
 install(TARGETS slagflow)
-install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/slagflow FILES_MATCHING PATTERN *.toml PATTERN *.stl)
+install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/slagflow FILES_MATCHING PATTERN *.toml PATTERN *.stl PATTERN *.csv)
 install(FILES ${said}/slagflow.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/slagflow)
 install(FILES ${said}/slagflow DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(FILES ${said}/slagflow.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
