@@ -89,6 +89,13 @@ class Verification(unittest.TestCase):
                     stem = run.case[1:] if run.case.startswith("/") else f"verification/{run.case}"
                     self.assertTrue((PROJECT / "cases" / f"{stem}.toml").is_file(), run.case)
 
+    def test_page_has_the_marks_once_and_the_table_between_them(self):
+        text = report.PAGE.read_text()
+        self.assertEqual((text.count(report.BEGIN), text.count(report.END)), (1, 1))
+        table = text.split(report.BEGIN)[1].split(report.END)[0]
+        self.assertTrue(table.startswith("\n| flow | resolution |"))
+        self.assertIn("| `poiseuille` |", table)
+
     def test_readme_takes_the_table_between_its_marks(self):
         class Outcome:
             name, causes = "flow", {"20: depth": "too coarse"}

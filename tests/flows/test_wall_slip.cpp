@@ -69,8 +69,8 @@ TEST(WallSlip, TurningCylinder) {
   }
   error = std::sqrt(error / size);
   std::printf("concentric cylinders: error %.2f %%\n", 100 * error);
-  // The target, 3 %, is missed: 3.6 %, most of it the scatter of single particles (README, Verification). The
-  // bound keeps the error from growing.
+  // The target, 3 %, is missed: 3.6 %, most of it the scatter of single particles
+  // (tests/verification/README.md). The bound keeps the error from growing.
   EXPECT_LT(error, 0.04);
 }
 

@@ -1,5 +1,7 @@
 """The table and the pictures."""
 
+from pathlib import Path
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -8,6 +10,7 @@ import matplotlib.pyplot as plt
 
 COLUMNS = (("flow", 22), ("resolution", 22), ("quantity", 42), ("computed", 11), ("closed form", 11), ("error", 9),
            ("target", 12), ("", 4))
+PAGE = Path(__file__).resolve().parent / "README.md"
 BEGIN, END = "<!-- table of scripts/verify -->", "<!-- end of table -->"
 
 
