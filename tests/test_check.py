@@ -13,11 +13,12 @@ def check(sources):
     """What the rules say of a project with these texts by path."""
     with tempfile.TemporaryDirectory() as folder:
         top = Path(folder)
-        for script in ("scripts/check", "scripts/toolchain"):
+        for script in ("scripts/check", "scripts/pages", "scripts/toolchain"):
             sources = {**sources, script: (PROJECT / script).read_text()}
         for name, text in sources.items():
             (top / name).parent.mkdir(parents=True, exist_ok=True)
             (top / name).write_text(text)
+            (top / name).chmod(0o755)
         return subprocess.run(["bash", top / "scripts/check"], capture_output=True, text=True).stdout
 
 
@@ -67,6 +68,30 @@ class Check(unittest.TestCase):
         said = check({"cuda/README.md": "See `fluid/a.hpp` and `host/case/b.cpp`, `fluid/c.cu`.\n",
                       "cuda/fluid/a.hpp": "int a();\n", "host/case/b.cpp": "int b();\n"})
         self.assertIn("FAIL  cuda/README.md names files that are there\n        fluid/c.cu\npass", said)
+
+    program = "build/cpu/slagflow"
+    prints = """#!/bin/bash
+case $* in
+  "help --page") echo "the keys" ;;
+  help) echo "error: the key 'a.b' is declared twice" >&2; exit 1 ;;
+esac
+"""
+    page = "<!-- keys: written by scripts/pages -->\n%s\n<!-- end of keys -->\n"
+
+    def test_a_key_declared_twice_fails(self):
+        rule = "each key of a case is declared once"
+        page = {"host/README.md": self.page % "the keys\n"}
+        said = check({**page, self.program: self.prints})
+        self.assertIn(f"FAIL  {rule}\n        error: the key 'a.b' is declared twice\n", said)
+        said = check({**page, self.program: self.prints.replace("exit 1", "").replace("echo \"error", ": \"error")})
+        self.assertIn(f"pass  {rule}\n", said)
+
+    def test_a_page_out_of_date_fails(self):
+        rule = "host/README.md holds the keys as slagflow help prints them"
+        said = check({"host/README.md": self.page % "the keys\n", self.program: self.prints})
+        self.assertIn(f"pass  {rule}\n", said)
+        said = check({"host/README.md": self.page % "other keys\n", self.program: self.prints})
+        self.assertIn(f"FAIL  {rule}\n        host/README.md is not what the program prints", said)
 
 
 if __name__ == "__main__":
