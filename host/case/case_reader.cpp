@@ -15,6 +15,15 @@ Range with_word(const Key& k, Range range) {
   return range;
 }
 
+// A table that a case has once and that has a key of this name.
+std::string elsewhere(const std::string& name) {
+  for (const CatalogueKey& k : catalogue().keys())
+    if (k.name == name && !k.is_table() && catalogue().find("", k.table) &&
+        catalogue().find("", k.table)->form == Form::table)
+      return "; " + name + " is a key of [" + k.table + "]";
+  return "";
+}
+
 }  // namespace
 
 CaseReader::CaseReader(const Toml& root, const Place& place, CaseProblems& problems) {
@@ -160,8 +169,10 @@ void CaseReader::report_unknown(Frame& frame) {
     if (known && undecided(frame, *known)) continue;
     if (known && !known->reason.empty())
       frame.table.refuse(name.c_str(), known->reason);
+    else if (known)
+      frame.table.report_unknown(name, "", "; " + name + " goes with " + known->where_text());
     else
-      frame.table.report_unknown(name, known ? "; " + name + " goes with " + known->where_text() : "");
+      frame.table.report_unknown(name, frame.table.nearest(name), elsewhere(name));
   }
 }
 

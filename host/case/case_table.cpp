@@ -390,10 +390,11 @@ std::vector<std::string> CaseTable::unknown() const {
   return names;
 }
 
-void CaseTable::report_unknown(const std::string& name, const std::string& more) {
+void CaseTable::report_unknown(const std::string& name, const std::string& before, const std::string& after) {
   problems_->note(key_path(name), place_of(table_->as_table().at(name)));
-  problem(name,
-          "unknown: " + (more.empty() ? suggestion(name, known_) : "") + "allowed: " + join(known_) + more);
+  problem(name, "unknown: " + before + "allowed: " + join(known_) + after);
 }
+
+std::string CaseTable::nearest(const std::string& name) const { return suggestion(name, known_); }
 
 }  // namespace slagflow

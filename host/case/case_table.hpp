@@ -106,8 +106,10 @@ class CaseTable {
   void problem(const std::string& key, const std::string& what);
   // The keys that are given and were not asked for.
   std::vector<std::string> unknown() const;
-  // Of one of them; `more` goes to the end of the message.
-  void report_unknown(const std::string& name, const std::string& more);
+  // Of one of them, with what goes before and after the keys that are known.
+  void report_unknown(const std::string& name, const std::string& before, const std::string& after);
+  // "did you mean 'x'? ", of the keys that are known, or nothing.
+  std::string nearest(const std::string& name) const;
 
  private:
   const Toml* find(const char* key, Need need, const std::string& allowed);

@@ -138,6 +138,14 @@ TEST(CaseErrors, AKeyOfAnotherKindIsToldWhatItGoesWith) {
               HasSubstr("velocity goes with type = \"constant\" or \"ramp\""));
 }
 
+TEST(CaseErrors, AKeyInTheWrongTableIsToldItsOwn) {
+  EXPECT_THAT(
+      message_of({"resolution.skin=0.1"}),
+      HasSubstr("'resolution.skin': unknown: allowed: spacing, support_ratio, dimensions, origin; skin is a "
+                "key of [numerics]"));
+  EXPECT_THAT(message_of({"end_time=1"}), HasSubstr("; end_time is a key of [output]"));
+}
+
 TEST(CaseErrors, WhereTheKindIsNotKnownItsKeysAreNotBlamed) {
   const std::string said = message_of({"region.0.shapes.0.shape=bal"});
   EXPECT_EQ(said.find("radius"), std::string::npos) << said;
