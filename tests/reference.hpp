@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "reference_kernels.hpp"
+
 namespace reference {
 
 struct Vec {
@@ -21,24 +23,6 @@ inline Vec cross(Vec a, Vec b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 inline double length(Vec a) { return std::hypot(a.x, a.y, a.z); }
-
-constexpr double pi = 3.14159265358979323846;
-
-// Lucy's function, equation (1): integrates to one over the plane (2-D) or space (3-D), zero from r = h on.
-inline double lucy(double r, double h, int dimensions) {
-  const double q = r / h;
-  if (q >= 1) return 0;
-  const double front = dimensions == 2 ? 5 / (pi * std::pow(h, 2)) : 105 / (16 * pi * std::pow(h, 3));
-  return front * (1 + 3 * q) * std::pow(1 - q, 3);
-}
-
-// dW/dr by the product rule.
-inline double lucy_slope(double r, double h, int dimensions) {
-  const double q = r / h;
-  if (q >= 1) return 0;
-  const double front = dimensions == 2 ? 5 / (pi * std::pow(h, 3)) : 105 / (16 * pi * std::pow(h, 4));
-  return front * (3 * std::pow(1 - q, 3) - 3 * (1 + 3 * q) * std::pow(1 - q, 2));
-}
 
 struct Fluid {
   double rest_density = 0;
@@ -77,6 +61,10 @@ struct World {
   int dimensions = 3;
   double spacing = 0, support = 0, sound_speed = 0;
   double diffusion = 0.1, tension_limit = 0, anti_pairing = 0.1, correction = 1.05;
+  Kernel kernel = Kernel::level;
+  Weight weight = Weight::lattice;
+  bool viscous_tension = true;    // bounded by the viscous stress, and the density with it
+  double wall_tension_limit = 0;  // of walls without their own
   Vec gravity, body_acceleration;
   Vec period;  // 0: an open axis
   std::vector<Fluid> fluids;
@@ -87,12 +75,15 @@ struct World {
   Vec moved(const Wall& wall, double dt) const { return walls_move ? wall.moved : dt * wall.v; }
   const Fluid& kind(const Particle& p) const { return fluids[static_cast<std::size_t>(p.fluid)]; }
   double density(const Particle& p) const { return kind(p).rest_density + p.excess; }
-  double limit(const Wall& wall) const { return wall.tension_limit < 0 ? tension_limit : wall.tension_limit; }
-  // Of a particle, towards a wall with a limit of its own.
-  double pressure_towards(const Wall& wall, const Particle& p) const {
-    return wall.tension_limit < 0 ? p.pressure
-                                  : std::max(sound_speed * sound_speed * p.excess, -wall.tension_limit);
+  double limit(const Wall& wall) const {
+    return wall.tension_limit < 0 ? wall_tension_limit : wall.tension_limit;
   }
+  // Of a particle; towards a wall that bears another tension than the fluid its own.
+  double pressure_towards(const Wall& wall, const Particle& p) const {
+    const bool like_fluid = wall.tension_limit < 0 && wall_tension_limit == tension_limit;
+    return like_fluid ? p.pressure : std::max(sound_speed * sound_speed * p.excess, -limit(wall));
+  }
+  SmoothingFunction smoothing() const { return {kernel, support, dimensions}; }
   double wall_volume() const { return std::pow(spacing, dimensions); }
   double softening() const { return 1e-6 * support * support; }
 };
@@ -134,8 +125,38 @@ void for_wall_pairs(const World& w, std::size_t i, F f, double reach = 1) {
 constexpr double reach_before = 1.05;  // of pairs that may have been within the support half a step ago
 
 // (1/r) dW/dr; zero for coincident particles, between which nothing acts.
-inline double slope_over_distance(const World& w, double r) {
-  return r > 0 ? lucy_slope(r, w.support, w.dimensions) / r : 0;
+inline double slope_over_distance(const World& w, double r) { return r > 0 ? w.smoothing().slope(r) / r : 0; }
+inline double flat_slope_over_distance(const World& w, double r) {
+  return r > 0 ? flat_slope(r, w.support, w.dimensions) / r : 0;
+}
+
+// Of the velocity difference of a pair in the viscous operator.
+inline double viscous_weight(const World& w, double r) {
+  if (w.weight == Weight::lattice) return lattice_weight(r, w.support, w.dimensions);
+  if (w.weight == Weight::value) return value_weight(w.kernel, r, w.support, w.dimensions);
+  return -slope_over_distance(w, r) / (r * r + w.softening());
+}
+
+// Share that the function of pairs under tension has in what particle p does below zero.
+inline double tension_share(const World& w, const Particle& p) {
+  if (w.kernel == Kernel::lucy) return 0;
+  const double ratio = p.mass / p.volume * w.sound_speed * w.spacing / (40 * p.viscosity);
+  return 1 / (1 + ratio * ratio);
+}
+// F, or what takes its place below zero.
+inline double mixed_slope(const World& w, double share, double r) {
+  return (1 - share) * slope_over_distance(w, r) + share * flat_slope_over_distance(w, r);
+}
+
+// A pressure with the share of the function for tension where it is below zero.
+struct Side {
+  double pressure, share;
+};
+inline double pressure_slope(const World& w, Side own, Side other, double r) {
+  double sum = 0;
+  for (const Side& s : {own, other})
+    sum += s.pressure * (s.pressure < 0 ? mixed_slope(w, s.share, r) : slope_over_distance(w, r));
+  return sum;
 }
 
 // Sum of -V x dW/dx over a lattice: what the pair sums make of a gradient of 1.
@@ -166,7 +187,9 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
     const Vec half_way = d - 0.5 * moved;
     if (length(half_way) >= w.support) return;
     const double f = slope_over_distance(w, length(half_way));
-    sum.add(density * volume * f * dot(moved, half_way), density * volume * -f * length(moved) * length(d));
+    const double mixed = mixed_slope(w, p.excess < 0 ? tension_share(w, p) : 0, length(half_way));
+    sum.add(density * volume * mixed * dot(moved, half_way),
+            density * volume * -f * length(moved) * length(d));
     const double smooth = dot(balanced, -1 * half_way) / c2 * share;
     sum.add(dt * strength * volume * -f * (excess - p.excess - smooth),
             dt * strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
@@ -182,7 +205,7 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
   for_wall_pairs(
       w, i,
       [&](const Wall& j, Vec d) {
-        const bool cut = j.tension_limit >= 0 && j.pressure <= -j.tension_limit;  // no diffusion there
+        const bool cut = j.pressure <= -w.limit(j);  // no diffusion there
         pair(d, w.wall_volume(), dt * p.v - w.moved(j, dt), cut ? p.excess : j.pressure / c2,
              cut ? Vec{} : rest * (w.gravity - j.acceleration), 1);
       },
@@ -210,7 +233,7 @@ inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
     const Vec half_way = d - 0.5 * moved;
     if (length(half_way) >= w.support) return;
     const double r2 = dot(half_way, half_way);
-    const double weight = -slope_over_distance(w, length(half_way)) * volume / (r2 + w.softening());
+    const double weight = viscous_weight(w, length(half_way)) * volume;
     const double factor = w.correction * (w.dimensions + 2) * weight;
     sum.add(factor * std::pow(dot(p.v - velocity, half_way), 2),
             factor * dot(p.v - velocity, p.v - velocity) * r2);
@@ -258,7 +281,7 @@ inline Sum wall_pressure(const World& w, const Wall& wall) {
   double weights = 0;
   for (const Particle& p : w.particles)
     for_images(w, wall.x, p.x, w.support, [&](Vec d) {
-      const double weight = lucy(length(d), w.support, w.dimensions);
+      const double weight = w.smoothing().value(length(d));
       const double head = w.density(p) * dot(w.gravity - wall.acceleration, d);
       weights += weight;
       const double pressure = w.pressure_towards(wall, p);
@@ -272,25 +295,33 @@ inline Sum wall_pressure(const World& w, const Wall& wall) {
 // of it by that term and by the pressure of walls.
 inline Sum acceleration(const World& w, std::size_t i, Vec* given = nullptr) {
   const Particle& p = w.particles[i];
-  const double at_spacing = lucy(w.spacing, w.support, w.dimensions);
+  const double at_spacing = w.smoothing().value(w.spacing);
   Sum sum;
   sum.add(w.gravity + w.body_acceleration, length(w.gravity) + length(w.body_acceleration));
-  auto pair = [&](Vec d, double volume, double own, double other) {
-    const double r = length(d), ratio = lucy(r, w.support, w.dimensions) / at_spacing;
+  const double own_share = tension_share(w, p);
+  auto pair = [&](Vec d, double volume, double own, Side there) {
+    const double other = there.pressure;
+    const double r = length(d), ratio = w.smoothing().value(r) / at_spacing;
     const double pairing = w.anti_pairing * std::max(0.0, std::pow(ratio, 4) - 1);
     const double sizes = std::fabs(own) + std::fabs(other);
     const double volumes = p.volume * volume / p.mass, f = slope_over_distance(w, r);
-    sum.add(-volumes * (own + other + pairing * sizes) * f * d, volumes * (1 + pairing) * sizes * -f * r);
+    sum.add(-volumes * (pressure_slope(w, {own, own_share}, there, r) + pairing * sizes * f) * d,
+            volumes * (1 + pairing) * sizes * -f * r);
     return -volumes * pairing * sizes * f * d;
   };
   auto give = [&](Vec a) {
     if (given) *given = *given + a;
   };
-  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) { give(pair(d, j.volume, p.pressure, j.pressure)); });
+  for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
+    give(pair(d, j.volume, p.pressure, {j.pressure, tension_share(w, j)}));
+  });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
     const double elastic = w.pressure_towards(j, p), own = std::max(elastic, p.contact);
-    const double volumes = p.volume * w.wall_volume() / p.mass, f = slope_over_distance(w, length(d));
-    give(pair(d, w.wall_volume(), own, j.pressure) - volumes * (own - elastic + j.pressure) * f * d);
+    const double volumes = p.volume * w.wall_volume() / p.mass, r = length(d);
+    const Side wall{j.pressure, own_share};
+    const double given_slope =
+        pressure_slope(w, {own, own_share}, wall, r) - pressure_slope(w, {elastic, own_share}, {0, 0}, r);
+    give(pair(d, w.wall_volume(), own, wall) - volumes * given_slope * d);
   });
   return sum;
 }

@@ -1,6 +1,6 @@
 // The oracle of the implicit viscous step: its dense matrix, its right hand side and their solution.
 //   m u + theta dt K (u - u_wall) = m u* - (1 - theta) dt K (v - u_wall),  (K u)_i = sum_j w_ij x_ij
-//   (x_ij.(u_i - u_j)) w_ij = C 2 (d + 2) eta_ij V_i V_j |F_ij| / (r^2 + 1e-6 h^2),  eta_ij the mean,
+//   (x_ij.(u_i - u_j)) w_ij = C 2 (d + 2) eta_ij V_i V_j w(r),  eta_ij the mean,
 //   harmonic between fluids
 #pragma once
 
@@ -70,8 +70,7 @@ inline ViscousOperator viscous_operator(const World& w) {
   const std::size_t n = w.particles.size();
   ViscousOperator result{Dense(3 * n), std::vector<double>(3 * n)};
   auto weight = [&](double eta, double volumes, Vec d) {
-    const double radial = -slope_over_distance(w, length(d)) / (dot(d, d) + w.softening());
-    return w.correction * 2 * (w.dimensions + 2) * eta * volumes * radial;
+    return w.correction * 2 * (w.dimensions + 2) * eta * volumes * viscous_weight(w, length(d));
   };
   for (std::size_t i = 0; i < n; ++i) {
     const Particle& p = w.particles[i];

@@ -58,8 +58,7 @@ struct Slips {
 inline std::vector<StrainRow> strain_rows(const World& w, const Slips& slips, std::size_t i) {
   std::vector<StrainRow> rows;
   auto root = [&](Vec d, double volume) {
-    const double f = -slope_over_distance(w, length(d)) / (dot(d, d) + w.softening());
-    return std::sqrt(w.correction * (w.dimensions + 2) * volume * f);
+    return std::sqrt(w.correction * (w.dimensions + 2) * volume * viscous_weight(w, length(d)));
   };
   for (std::size_t j = 0; j < w.particles.size(); ++j)
     if (j != i)

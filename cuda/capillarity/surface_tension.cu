@@ -5,7 +5,7 @@
 #include "capillarity/surface_tension.hpp"
 #include "fluid/diagnostic_sums.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/smoothing/lucy.hpp"
+#include "fluid/smoothing/smoothing.hpp"
 
 namespace slagflow {
 
@@ -13,6 +13,9 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int intervals = 200;  // of Simpson's rule
+// The colour's gradient is taken with Lucy's function whatever the pressure has: of flatter ones drops feel
+// too stiff a surface.
+constexpr SmoothingKind capillary_kernel = SmoothingKind::lucy;
 
 double simpson_weight(int k) { return k == 0 || k == intervals ? 1 : (k % 2 == 1 ? 4 : 2); }
 
@@ -30,7 +33,7 @@ double over_plane(const F& f, double z, int dimensions, int power) {
   return sum;
 }
 
-template <class Smoothing, class Box>
+template <class Box>
 struct Stress {
   PairContext c;
   Smoothing smoothing;
@@ -74,7 +77,7 @@ struct Stress {
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
-      if (bits(near)) sum += select(near, there.w * smoothing.gradient(root(r2)), Lanes(0)) * d;
+      if (bits(near)) sum += select(near, there.w * smoothing.gradient(r2), Lanes(0)) * d;
     }
     return total(sum);
   }
@@ -89,7 +92,7 @@ struct Stress {
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
-      const LaneVec3 gradient = select(near, c.flow.wall_volume * smoothing.gradient(root(r2)), Lanes(0)) * d;
+      const LaneVec3 gradient = select(near, c.flow.wall_volume * smoothing.gradient(r2), Lanes(0)) * d;
       Real angle[lane_count];
       for (int lane = 0; lane < lane_count; ++lane) angle[lane] = cosine[wall_id[j[lane]]];
       sum += gradient;
@@ -100,7 +103,7 @@ struct Stress {
   }
 };
 
-template <class Smoothing, class Box>
+template <class Box>
 struct Divergence {
   PairContext c;
   Smoothing smoothing;
@@ -139,7 +142,7 @@ struct Divergence {
       const Lanes r = root(r2);
       sum += select(near, there.w * weight(r), Lanes(0)) * times(sum_normal, sum_shear, d);
       const QuadLanes wet = gather(capillary.wall_normal, j);
-      const Lanes push = select(near, there.w * smoothing.gradient(r), Lanes(0));
+      const Lanes push = select(near, there.w * smoothing.gradient(r2), Lanes(0));
       sum += along_wall(xyz(wet), push * wet.w, d) + along_wall(in_lanes(xyz(wetted)), push * wetted.w, d);
     }
     const Quad own = c.fluid.state[i];
@@ -181,8 +184,8 @@ namespace {
 // int_0^h W1^2/(W1 + n0) M dz, M the share of int w x_t^2 dV within the fluid.
 template <class Weight>
 double plane_integral(int dimensions, const Weight& weight) {
-  const Lucy smoothing(1, dimensions);
-  const auto value = [&](double r) { return static_cast<double>(smoothing.value(static_cast<Real>(r))); };
+  const Smoothing smoothing(capillary_kernel, 1, dimensions);
+  const auto value = [&](double r) { return static_cast<double>(smoothing.value(static_cast<Real>(r * r))); };
   const double step = 1.0 / intervals;
   double sum = 0, share = 0.5;
   for (int k = 0; k <= intervals; ++k) {
@@ -205,9 +208,10 @@ double plane_surface_tension(int dimensions) {
 }
 
 double plane_wall_tension(int dimensions) {
-  const Lucy smoothing(1, dimensions);
-  return plane_integral(
-      dimensions, [&](double r) { return -static_cast<double>(smoothing.gradient(static_cast<Real>(r))); });
+  const Smoothing smoothing(capillary_kernel, 1, dimensions);
+  return plane_integral(dimensions, [&](double r) {
+    return -static_cast<double>(smoothing.gradient(static_cast<Real>(r * r)));
+  });
 }
 
 SurfaceTension::SurfaceTension(Context& c, const SimulationSetup& s)
@@ -245,16 +249,16 @@ void SurfaceTension::update(const PairContext& c, Span<const Index> wall_id) {
   if (!on_) return;
   Section timer(context_, "surface tension");
   const Index n = c.fluid.count;
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
+  const Smoothing smoothing(capillary_kernel, static_cast<double>(c.flow.support), c.flow.dimensions);
   const TensionWeight weight(c.flow.support, c.flow.dimensions);
   const auto noise = static_cast<Real>(colour_noise) / c.flow.support;
   auto sweep = [&](auto box) {
     launch(context_, "capillary stress", n,
-           Stress<Lucy, decltype(box)>{c, smoothing, box, noise, wall_share_, strength_.span(),
-                                       cosine_.span(), wall_id, normal_stress_.span(), shear_stress_.span(),
-                                       wall_normal_.span(), wall_traction_.span()});
+           Stress<decltype(box)>{c, smoothing, box, noise, wall_share_, strength_.span(), cosine_.span(),
+                                 wall_id, normal_stress_.span(), shear_stress_.span(), wall_normal_.span(),
+                                 wall_traction_.span()});
     launch(context_, "capillary acceleration", n,
-           Divergence<Lucy, decltype(box)>{c, smoothing, weight, box, view(), acceleration_.span()});
+           Divergence<decltype(box)>{c, smoothing, weight, box, view(), acceleration_.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

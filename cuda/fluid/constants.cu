@@ -4,7 +4,6 @@
 #include "backend/error.hpp"
 #include "fluid/constants.hpp"
 #include "fluid/lattice_viscosity.hpp"
-#include "fluid/smoothing/lucy.hpp"
 
 namespace slagflow {
 
@@ -50,6 +49,21 @@ void validate_exact_yield(const SimulationSetup& s) {
                                                      "\" of rheology \"" + f.rheology.info().name +
                                                      "\"; allowed: newtonian, bingham, "
                                                      "herschel-bulkley, carreau-yasuda");
+}
+
+// Sum V |F| x^2 over a lattice.
+double gradient_on_lattice(const FlowConstants& flow) {
+  const auto dx = static_cast<double>(flow.spacing), h = static_cast<double>(flow.support);
+  const int reach = static_cast<int>(h / dx), across = flow.dimensions == 3 ? reach : 0;
+  double sum = 0;
+  for (int i = -reach; i <= reach; ++i)
+    for (int j = -across; j <= across; ++j)
+      for (int k = -reach; k <= reach; ++k) {
+        const double r2 = square(dx) * (i * i + j * j + k * k);
+        if (r2 >= square(h)) continue;
+        sum -= static_cast<double>(flow.smoothing.gradient(static_cast<Real>(r2))) * square(i * dx);
+      }
+  return sum * static_cast<double>(flow.wall_volume);
 }
 
 double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.dimensions); }
@@ -108,10 +122,30 @@ void validate(const SimulationSetup& s) {
             "the domain has no extent along axis " + std::string(1, "xyz"[k]));
 }
 
+double wall_tension_limit(const WallBody& body, const NumericsSetup& n) {
+  if (body.tension_limit >= 0) return body.tension_limit;
+  return n.tension == TensionModel::limit ? n.tension_limit : 0;
+}
+
+double common_wall_tension_limit(const SimulationSetup& s) {
+  const double first =
+      s.bodies.empty() ? s.numerics.tension_limit : wall_tension_limit(s.bodies.front(), s.numerics);
+  for (const WallBody& body : s.bodies)
+    if (wall_tension_limit(body, s.numerics) != first) return -1;
+  return first;
+}
+
+double anti_pairing(const SimulationSetup& s) {
+  if (s.numerics.anti_pairing >= 0) return s.numerics.anti_pairing;
+  bool needed = s.numerics.kernel == SmoothingKind::lucy;
+  for (const FluidSetup& fluid : s.fluids) needed = needed || fluid.surface_tension > 0;
+  return needed ? 0.1 : 0;
+}
+
 FlowConstants flow_constants(const SimulationSetup& s) {
   const double h = s.support_ratio * s.spacing, c0 = s.numerics.sound_speed;
-  const Lucy smoothing(h, s.dimensions);
   FlowConstants flow;
+  flow.smoothing = Smoothing(s.numerics.kernel, h, s.dimensions, s.numerics.viscous_weight);
   flow.dimensions = s.dimensions;
   flow.spacing = static_cast<Real>(s.spacing);
   flow.support = static_cast<Real>(h);
@@ -120,15 +154,19 @@ FlowConstants flow_constants(const SimulationSetup& s) {
   flow.body_acceleration = to_real(s.body_acceleration);
   flow.sound_speed_squared = static_cast<Real>(c0 * c0);
   flow.diffusion = static_cast<Real>(s.numerics.density_diffusion * h * c0);
+  flow.viscous_tension = s.numerics.tension != TensionModel::limit;
+  flow.flat_tension = s.numerics.kernel != SmoothingKind::lucy;
   flow.tension_limit = static_cast<Real>(s.numerics.tension_limit);
-  flow.anti_pairing = static_cast<Real>(s.numerics.anti_pairing);
-  flow.pairing_reference = 1 / smoothing.value(flow.spacing);
+  flow.wall_tension_limit = static_cast<Real>(common_wall_tension_limit(s));
+  flow.tension_reference = static_cast<Real>(c0 * s.spacing / 40);
+  flow.anti_pairing = static_cast<Real>(anti_pairing(s));
+  flow.pairing_reference = 1 / flow.smoothing.value(square(flow.spacing));
+  flow.inverse_gradient_sum = static_cast<Real>(1 / gradient_on_lattice(flow));
   const double correction = viscosity_correction(s);
   const bool radial = s.numerics.viscous_operator == ViscousOperator::radial;
   flow.coupling = radial ? PairCoupling::radial : PairCoupling::isotropic;
   flow.operator_factor = static_cast<Real>((radial ? 2 * (s.dimensions + 2) : 2) * correction);
   flow.shear_factor = static_cast<Real>((s.dimensions + 2) * correction);
-  flow.softening = static_cast<Real>(1e-6 * h * h);
   return flow;
 }
 
@@ -158,7 +196,8 @@ PeriodicBox periodic_box(const SimulationSetup& s) {
 
 double viscosity_correction(const SimulationSetup& s) {
   if (s.numerics.viscosity_correction > 0) return s.numerics.viscosity_correction;
-  return 1 / lattice_viscosity(s.numerics.viscous_operator, s.support_ratio, s.dimensions);
+  return 1 / lattice_viscosity(s.numerics.viscous_operator, {s.numerics.kernel, s.numerics.viscous_weight},
+                               s.support_ratio, s.dimensions);
 }
 
 double capillary_time_step(const SimulationSetup& s) {
@@ -174,11 +213,11 @@ double diffusion_time_step(const SimulationSetup& s) {
   constexpr double pi = 3.14159265358979324, share = 0.7;
   constexpr int shells = 1000;
   const double h = s.support_ratio * s.spacing, width = h / shells;
-  const Lucy smoothing(h, s.dimensions);
+  const Smoothing smoothing(s.numerics.kernel, h, s.dimensions);
   double sum = 0;  // of V |F| [1/m^2], as an integral
   for (int k = 0; k < shells; ++k) {
     const double r = (k + 0.5) * width, around = s.dimensions == 2 ? 2 * pi * r : 4 * pi * r * r;
-    sum -= static_cast<double>(smoothing.gradient(static_cast<Real>(r))) * around * width;
+    sum -= static_cast<double>(smoothing.gradient(static_cast<Real>(r * r))) * around * width;
   }
   return share * 2 / (s.numerics.density_diffusion * h * s.numerics.sound_speed * sum);
 }

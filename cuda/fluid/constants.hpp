@@ -30,6 +30,16 @@ std::vector<FluidConstants> fluid_constants(const SimulationSetup&);
 // Of one particle of fluid `kind` [kg].
 double particle_mass(const SimulationSetup&, std::size_t kind);
 
+// What a wall's pairs with fluid bear [Pa]: as given; else the fluid's limit, and none where the fluid's
+// tension follows its viscous stress: wetting is the wall's own.
+double wall_tension_limit(const WallBody&, const NumericsSetup&);
+// That of all walls; -1: they differ.
+double common_wall_tension_limit(const SimulationSetup&);
+
+// epsilon of the term that keeps pairs apart: as given, or 0.1 where surface tension, or the negative Fourier
+// transform of Lucy's function, draws particles together.
+double anti_pairing(const SimulationSetup&);
+
 PeriodicBox periodic_box(const SimulationSetup&);
 
 // C of equation (7): as given, or what takes out the bias of the operator, 1 / lattice_viscosity().

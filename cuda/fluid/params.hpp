@@ -5,6 +5,7 @@
 #include "backend/span.hpp"
 #include "fluid/math.hpp"
 #include "fluid/models.hpp"
+#include "fluid/smoothing/smoothing.hpp"
 
 namespace slagflow {
 
@@ -72,14 +73,19 @@ struct FlowConstants {
   Vec3 body_acceleration;        // [m/s^2]
   Real sound_speed_squared = 0;  // [m^2/s^2]
   Real diffusion = 0;            // 2 delta (h/2) c0 [m^2/s]
+  bool viscous_tension = false;  // what is in tension follows TensionModel::viscous
+  bool flat_tension = false;     // its pairs have the function for tension
   Real tension_limit = 0;        // [Pa]
+  Real wall_tension_limit = 0;   // [Pa], of walls without one of their own (WallArrays::tension_limit)
+  Real tension_reference = 0;    // c0 dx/40 [m^2/s], of tension_share()
   Real anti_pairing = 0;
-  Real pairing_reference = 0;  // 1 / W(spacing)
+  Real pairing_reference = 0;     // 1 / W(spacing)
+  Real inverse_gradient_sum = 1;  // 1 / sum V |F| x^2 of a lattice: what the pair sums make of a gradient
+  Smoothing smoothing;
   PairCoupling coupling = PairCoupling::radial;
   Real operator_factor =
       0;                  // C_visc 2 (d + 2) radial, C_visc 2 isotropic: pair weight of the viscous operator
   Real shear_factor = 0;  // C_visc (d + 2): pair weight of the squared shear rate
-  Real softening = 0;     // 1e-6 h^2 [m^2], keeps coincident pairs finite
 };
 
 // Morris' no-slip: a wall particle at depth d_w below the surface stands for the velocity that makes the

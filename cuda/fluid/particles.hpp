@@ -65,7 +65,7 @@ struct WallArrays : ParticleArrays {
                                {"wall_pressure", "Pa", "pressure", Fate::sorted | Fate::saved | Fate::shown}};
   ParticleArray<Index> id{*this, {"wall_id", "1", "number of the particle", Fate::sorted | Fate::shown}};
 
-  Buffer<Real> tension_limit;  // [Pa], by id; empty where all walls have the fluid's
+  Buffer<Real> tension_limit;  // [Pa], by id; empty where all walls have the same
 };
 
 struct FluidView {

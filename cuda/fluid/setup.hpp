@@ -9,6 +9,7 @@
 #include "fluid/math.hpp"
 #include "fluid/models.hpp"
 #include "fluid/motion.hpp"
+#include "fluid/smoothing/smoothing.hpp"
 
 namespace slagflow {
 
@@ -55,7 +56,7 @@ struct WallBody {
   WallSlip slip = WallSlip::no_slip;
   double slip_length = 0;     // [m], of partial slip
   double contact_angle = 90;  // [degrees], within a fluid with surface tension
-  double tension_limit = -1;  // [Pa], of its pairs with fluid, up to the numerics'; < 0: that
+  double tension_limit = -1;  // [Pa], of its pairs with fluid, up to the numerics'; < 0: wall_tension_limit()
   // Of the material, along the surface; the shape stays where it is, as in belts and turning cylinders.
   RigidVelocity surface{};
   WallMotion motion{};
@@ -90,13 +91,21 @@ enum class ViscousSolver { multigrid, conjugate_gradient, sor, jacobi };
 // looks after each batch, or the device.
 enum class SolverLoop { batch, conditional };
 
+// What fluid bears below zero pressure. viscous: what its own viscous stress can ask for; what expands beyond
+// that is void. limit: the same everywhere, walls too, and the density goes on falling: for fluid without a
+// free surface, where no void can be. automatic stands for the one that suits the case; here it is viscous.
+enum class TensionModel { automatic, viscous, limit };
+
 struct NumericsSetup {
-  double sound_speed = 0;           // [m/s]
-  double courant = 0.8;             // dt <= courant (h/2) / sound_speed
-  double max_time_step = 0;         // [s], 0: no further limit
-  double density_diffusion = 0.1;   // delta of Fourtakas et al. 2019
-  double tension_limit = 0;         // [Pa] >= 0, pressure is cut off at -tension_limit
-  double anti_pairing = 0.1;        // epsilon of the term that keeps pairs apart
+  SmoothingKind kernel = SmoothingKind::level;
+  ViscousWeight viscous_weight = ViscousWeight::lattice;
+  double sound_speed = 0;          // [m/s]
+  double courant = 0.8;            // dt <= courant (h/2) / sound_speed
+  double max_time_step = 0;        // [s], 0: no further limit
+  double density_diffusion = 0.1;  // delta of Fourtakas et al. 2019
+  TensionModel tension = TensionModel::automatic;
+  double tension_limit = 1e5;       // [Pa] >= 0, the most that fluid bears: that of the air's pressure
+  double anti_pairing = -1;         // epsilon of the term that keeps pairs apart, < 0: anti_pairing(setup)
   double shifting = 0;              // A of the particle shifting (shifting.hpp)
   double viscosity_correction = 0;  // 0: from the kernel and the lattice (lattice_viscosity.hpp)
   ViscousStepping viscous_step = ViscousStepping::implicit_step;

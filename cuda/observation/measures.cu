@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "fluid/diagnostic_sums.hpp"
-#include "fluid/smoothing/lucy.hpp"
+#include "fluid/smoothing/smoothing.hpp"
 #include "observation/measures.hpp"
 
 namespace slagflow {
@@ -99,7 +99,8 @@ struct InterpolateAtPoint {
   Span<const Quad> place, motion, state;
   Span<const Real> shear_rate;
   PeriodicBox box;
-  Lucy W;
+  Smoothing W;
+  Real inverse_support;
   Real reach;  // of the support, from where the particles were sorted
   Span<const Quad> point;
   Span<Sample> result;
@@ -110,8 +111,9 @@ struct InterpolateAtPoint {
     grid.for_cells_within(at, reach, [&](Index first, Index last) {
       for (Index j = cell_start[first]; j < cell_start[last + 1]; ++j) {
         const Vec3 d = box.separation(xyz(place[j]), at);
-        const Real r = norm(d);
-        if (r < W.support) visit(j, static_cast<double>(state[j].z * W.value(r)), to_double(W.inverse * d));
+        const Real r2 = dot(d, d);
+        if (r2 < square(W.support))
+          visit(j, static_cast<double>(state[j].z * W.value(r2)), to_double(inverse_support * d));
       }
     });
   }
@@ -216,12 +218,12 @@ std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& sourc
   point.upload(points);
   result.resize(points.size());
   const CellGrid& grid = source.cells.grid;
-  const auto reach = static_cast<Real>(source.support + source.drift);
+  const auto reach = static_cast<Real>(static_cast<double>(source.smoothing.support) + source.drift);
   const FluidArrays& f = source.fluid;
   launch(c, "profile", line.points,
          InterpolateAtPoint{grid, source.cells.cell_start, f.place.span(), f.motion.span(), f.state.span(),
-                            f.shear_rate.span(), source.box, Lucy(source.support, source.dimensions), reach,
-                            point.span(), result.span()});
+                            f.shear_rate.span(), source.box, source.smoothing, 1 / source.smoothing.support,
+                            reach, point.span(), result.span()});
   std::vector<Sample> samples;
   result.download(samples);
   std::vector<ProfilePoint> profile;

@@ -57,8 +57,8 @@ struct ProfileSource {
   const FluidArrays& fluid;
   SourceView cells;
   PeriodicBox box;
-  double support, drift;  // [m]
-  int dimensions;
+  Smoothing smoothing;
+  double drift;  // [m]
 };
 
 // The fluid at evenly spaced points of a line, both ends included: a linear function fitted to the particles

@@ -1,5 +1,4 @@
 #include "fluid/diagnostic_sums.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "observation/wall_forces.hpp"
 #include "pressure/pair_pressure.hpp"
 #include "walls/wall_tension.hpp"
@@ -10,11 +9,10 @@ namespace {
 
 using Impulse = WallForces::Impulse;
 
-template <class Smoothing, class Box>
+template <class Box>
 struct AddImpulse {
   PairContext c;
   ListView list;
-  Smoothing smoothing;
   Box box;
   Real dt, theta;
   Span<const Quad> velocity, explicit_velocity;
@@ -39,24 +37,27 @@ struct AddImpulse {
     const Real r2 = dot(d, d);
     if (r2 >= square(c.flow.support)) return;
     const Quad own = c.fluid.state[i], wall = c.wall.velocity[w];
-    const Real r = std::sqrt(r2), f = smoothing.gradient(r);
+    const Real viscous_weight = c.flow.smoothing.viscous(r2);
     const WallPressures<Real> p = towards_walls(c, i, own.x, wall_tension_limit(c, w));
-    const Real volumes = -dt * own.z * c.flow.wall_volume * f;
-    Vec3d pressure =
-        to_double((volumes * pair_pressure(c.flow, smoothing, p.fluid, c.wall.pressure[w], r)) * d);
+    const Real volumes = -dt * own.z * c.flow.wall_volume;
+    const Real in_tension = tension_share(c.flow, own.w / own.z, own.y);
+    const PressureSide<Real> fluid{p.fluid, in_tension}, behind{c.wall.pressure[w], in_tension},
+        elastic{p.elastic, in_tension}, none{0, 0};
+    Vec3d pressure = to_double((volumes * pair_pressure_slope(c.flow, fluid, behind, r2)) * d);
     if (capillary.any())
-      pressure += to_double(dt * capillary_pull(capillary, tension_weight, i, d, r, c.flow.wall_volume));
+      pressure +=
+          to_double(dt * capillary_pull(capillary, tension_weight, i, d, std::sqrt(r2), c.flow.wall_volume));
     Vec3d viscous;
     if (wall.w >= 0) {
       const WallPairGeometry<Real, Quad> pair{d, c.wall.normal[w], c.wall.back[w]};
       const Real stick = no_slip_factor(pair, c.flow.spacing, wall.w);
       const Real factor = dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
-      const Real weight = -factor * stick * f / (r2 + c.flow.softening);
+      const Real weight = factor * stick * viscous_weight;
       const Vec3 mean = theta * xyz(velocity[i]) + (1 - theta) * xyz(explicit_velocity[i]);
       viscous = to_double(couple(c.flow.coupling, weight, d, xyz(wall) - mean));
       if (yield.stress.data) {
         const Real stress = (2 * yield.held[i] - 1) * yield_stress_of(w, i);
-        viscous -= to_double(dt * own.z * stress * wall_strain_factor(c.flow, stick, f, r2) * d);
+        viscous -= to_double(dt * own.z * stress * wall_strain_factor(c.flow, stick, viscous_weight) * d);
       }
     }
     const Vec3d at = to_double(xyz(c.wall.place[w]) + d);
@@ -64,7 +65,8 @@ struct AddImpulse {
     sum.pressure_torque -= cross(at, pressure), sum.viscous_torque -= cross(at, viscous);
     sum.work += dot(pressure + viscous, to_double(xyz(wall)));
     sum.viscous_work += dot(viscous, to_double(xyz(wall)));
-    sum.elastic_work += dot(to_double((volumes * p.elastic) * d), to_double(xyz(wall)));
+    sum.elastic_work +=
+        dot(to_double((volumes * pressure_slope(c.flow, elastic, none, r2)) * d), to_double(xyz(wall)));
   }
 
   // It is stored with the pairs of the fluid particle.
@@ -106,22 +108,20 @@ void WallForces::start(const std::vector<std::uint8_t>& body) {
 
 void WallForces::add(const PairContext& c, const ListView& list, const WallArrays& wall,
                      const WallForceStep& step) {
-  const Lucy smoothing(static_cast<double>(c.flow.support), c.flow.dimensions);
   const TensionWeight tension_weight(static_cast<double>(c.flow.support), c.flow.dimensions);
   auto sweep = [&](auto box) {
-    const AddImpulse<Lucy, decltype(box)> body{c,
-                                               list,
-                                               smoothing,
-                                               box,
-                                               static_cast<Real>(step.dt),
-                                               static_cast<Real>(step.theta),
-                                               step.velocity,
-                                               step.explicit_velocity,
-                                               step.yield,
-                                               step.capillary,
-                                               tension_weight,
-                                               wall.id.span(),
-                                               impulse_.span()};
+    const AddImpulse<decltype(box)> body{c,
+                                         list,
+                                         box,
+                                         static_cast<Real>(step.dt),
+                                         static_cast<Real>(step.theta),
+                                         step.velocity,
+                                         step.explicit_velocity,
+                                         step.yield,
+                                         step.capillary,
+                                         tension_weight,
+                                         wall.id.span(),
+                                         impulse_.span()};
     launch(context_, "wall forces", wall.count, if_converged(step.solve, body));
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});

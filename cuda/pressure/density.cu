@@ -1,7 +1,7 @@
 #include "backend/launch.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "pressure/density.hpp"
+#include "pressure/pair_pressure.hpp"
 #include "walls/contact.hpp"
 #include "walls/wall_tension.hpp"
 
@@ -22,24 +22,24 @@ struct Centre {
   Real excess;  // density - rest density
   Real rest_density;
   Vec3 by_pressure;  // force per volume
+  Real in_tension;   // share of the function for tension in its continuity
 };
 
 // Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
-template <class Smoothing, class Box>
+template <class Box>
 struct DensityAndShear {
   PairContext c;
-  Smoothing smoothing;
   Box box;
   Real moved;              // [s]
   Real inverse_stiffness;  // 1/c0^2
-  Real inverse_gradient;   // of a gradient over the sum that stands for it on a lattice
   Span<Real> excess, shear_rate, contact;
 
   HOST_DEVICE void operator()(Index i) const {
     const Quad motion = c.fluid.motion[i];
     const FluidConstants& kind = c.fluids[c.fluid.fluid[i]];
-    const Centre centre{xyz(c.fluid.place[i]), xyz(motion), motion.w, kind.rest_density,
-                        xyz(c.fluid.by_pressure[i])};
+    const Centre centre{
+        xyz(c.fluid.place[i]),        xyz(motion), motion.w, kind.rest_density, xyz(c.fluid.by_pressure[i]),
+        share_in_tension(i, motion.w)};
     PairSums sums;
     add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
@@ -63,21 +63,34 @@ struct DensityAndShear {
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
-      const Lanes weight = select(near, there.w * smoothing.gradient(root(r2)), Lanes(0));
-      const Lanes approach = dot(slip, d), share = weight * approach;
-      sums.approach += share;
-      const Lanes smooth = (Real(0.5) * inverse_stiffness * inverse_gradient) *
+      const Lanes volume = select(near, there.w, Lanes(0)), weight = volume * c.flow.smoothing.gradient(r2);
+      const Lanes approach = dot(slip, d);
+      sums.approach += volume * continuity_slope(centre, r2) * approach;
+      const Lanes smooth = (Real(0.5) * inverse_stiffness * c.flow.inverse_gradient_sum) *
                            dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
       const Lanes noise = weight * ((other.w - centre.excess) - smooth),
-                  strain = share * approach / (r2 + c.flow.softening);
+                  strain = volume * c.flow.smoothing.viscous(r2) * square(approach);
       if (c.fluids.size == 1) {
-        sums.diffusion -= noise, sums.shear -= strain;
+        sums.diffusion -= noise, sums.shear += strain;
         continue;
       }
       const LaneMask alike = same(c.fluid.fluid, j, c.fluid.fluid[i]);
       sums.diffusion -= select(alike, noise, Lanes(0));
-      sums.shear -= select(alike, Lanes(1), own_side(i, j)) * strain;
+      sums.shear += select(alike, Lanes(1), own_side(i, j)) * strain;
     }
+  }
+
+  HOST_DEVICE Real share_in_tension(Index i, Real above_rest) const {
+    if (!c.flow.flat_tension || above_rest >= 0) return 0;
+    const Quad state = c.fluid.state[i];
+    return tension_share(c.flow, state.w / state.z, state.y);
+  }
+
+  // F, or between it and that of pairs under tension.
+  HOST_DEVICE Lanes continuity_slope(const Centre& centre, Lanes r2) const {
+    const Lanes slope = c.flow.smoothing.gradient(r2);
+    if (!(centre.in_tension > 0)) return slope;
+    return slope + centre.in_tension * (c.flow.smoothing.tension_gradient(r2) - slope);
   }
 
   // Share of i of the square of the strain rate of a pair of two fluids.
@@ -110,8 +123,9 @@ struct DensityAndShear {
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
-      const Lanes weight = select(near, c.flow.wall_volume * smoothing.gradient(root(r2)), Lanes(0));
-      sums.squeeze += weight * dot(change, d);
+      const Lanes volume = select(near, Lanes(c.flow.wall_volume), Lanes(0)),
+                  weight = volume * c.flow.smoothing.gradient(r2);
+      sums.squeeze += volume * continuity_slope(centre, r2) * dot(change, d);
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure * inverse_stiffness - centre.excess + slope * dot(falls, d);
@@ -123,26 +137,15 @@ struct DensityAndShear {
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
       // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
       const Lanes dissipated =
-          Real(2) * stick * weight * square(dot(v - xyz(other), d)) / (r2 + c.flow.softening);
-      sums.shear -= select(other.w < Lanes(0), Lanes(0), dissipated);
+          Real(2) * stick * volume * c.flow.smoothing.viscous(r2) * square(dot(v - xyz(other), d));
+      sums.shear += select(other.w < Lanes(0), Lanes(0), dissipated);
     }
   }
 };
 
-// Sum V |F| x^2 over a lattice: what the pair sums make of a gradient of 1.
-template <class Smoothing>
-double gradient_on_lattice(const Smoothing& smoothing, const FlowConstants& flow) {
-  const auto dx = static_cast<double>(flow.spacing), h = static_cast<double>(flow.support);
-  const int reach = static_cast<int>(h / dx), across = flow.dimensions == 3 ? reach : 0;
-  double sum = 0;
-  for (int i = -reach; i <= reach; ++i)
-    for (int j = -across; j <= across; ++j)
-      for (int k = -reach; k <= reach; ++k) {
-        const double r = dx * std::sqrt(static_cast<double>(i * i + j * j + k * k));
-        if (r < h) sum -= static_cast<double>(smoothing.gradient(static_cast<Real>(r))) * square(i * dx);
-      }
-  return sum * static_cast<double>(flow.wall_volume);
-}
+// Tension over the viscous stress eta gamma. A free surface asks for 2/sqrt(3) at most; from 4 on discharges
+// and sheets take no notice of it.
+constexpr Real most_tension = 8;
 
 struct StateFromDensity {
   Span<const FluidConstants> fluids;
@@ -154,12 +157,16 @@ struct StateFromDensity {
 
   HOST_DEVICE void operator()(Index i) const {
     const FluidConstants& f = fluids[fluid[i]];
-    const Real p = larger(flow.sound_speed_squared * excess[i], -flow.tension_limit);
-    const Real volume = f.volume(excess[i], packing[i]);
-    motion[i].w = excess[i];
+    const Real eta = viscosity(f.rheology, shear_rate[i]);
+    const Real limit = flow.viscous_tension
+                           ? smaller(flow.tension_limit, larger(Real(0), most_tension * eta * shear_rate[i]))
+                           : flow.tension_limit;
+    const Real kept = flow.viscous_tension ? larger(excess[i], -limit / flow.sound_speed_squared) : excess[i];
+    const Real p = larger(flow.sound_speed_squared * kept, -limit), volume = f.volume(kept, packing[i]);
+    motion[i].w = kept;
     place[i].w = volume;
     pressure[i] = p;
-    state[i] = {p, viscosity(f.rheology, shear_rate[i]), volume, f.mass};
+    state[i] = {p, eta, volume, f.mass};
   }
 };
 
@@ -167,14 +174,11 @@ struct StateFromDensity {
 
 void update_density(Context& context, const PairContext& c, FluidArrays& fluid, Buffer<Real>& scratch,
                     Real moved) {
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
-  const auto gradient = static_cast<Real>(1 / gradient_on_lattice(smoothing, c.flow));
   scratch.resize(fluid.count);
   auto sweep = [&](auto box) {
     launch(context, "density and shear rate", fluid.count,
-           DensityAndShear<Lucy, decltype(box)>{c, smoothing, box, moved, 1 / c.flow.sound_speed_squared,
-                                                gradient, scratch.span(), fluid.shear_rate.span(),
-                                                fluid.contact.span()});
+           DensityAndShear<decltype(box)>{c, box, moved, 1 / c.flow.sound_speed_squared, scratch.span(),
+                                          fluid.shear_rate.span(), fluid.contact.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
   launch(context, "state", fluid.count,

@@ -1,6 +1,5 @@
 #include "backend/launch.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "pressure/shifting.hpp"
 
 namespace slagflow {
@@ -12,10 +11,9 @@ struct Crowding {
   Lanes fill = 0;     // d T
 };
 
-template <class Smoothing, class Box>
+template <class Box>
 struct Shift {
   PairContext c;
-  Smoothing smoothing;
   Box box;
   ShiftStep step;
   Span<Vec3d> position;
@@ -43,7 +41,7 @@ struct Shift {
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
       const Lanes volume = walls ? Lanes(c.flow.wall_volume) : there.w;
-      const Lanes weight = select(near, volume * smoothing.gradient(root(r2)), Lanes(0));
+      const Lanes weight = select(near, volume * c.flow.smoothing.gradient(r2), Lanes(0));
       sum.gradient += weight * d;
       sum.fill -= weight * r2;
     }
@@ -53,10 +51,9 @@ struct Shift {
 }  // namespace
 
 void shift_particles(Context& context, const PairContext& c, const ShiftStep& step, Span<Vec3d> position) {
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
   auto sweep = [&](auto box) {
     launch(context, "shifting", c.fluid.count,
-           if_converged(step.solve, Shift<Lucy, decltype(box)>{c, smoothing, box, step, position}));
+           if_converged(step.solve, Shift<decltype(box)>{c, box, step, position}));
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

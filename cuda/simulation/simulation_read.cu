@@ -50,8 +50,8 @@ Totals Simulation::totals() {
 
 std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
   State& s = *state_;
-  const ProfileSource source{
-      s.fluid, s.ordering.fluid_sources(s.fluid), s.box, s.reach.support, s.displacement, s.setup.dimensions};
+  const ProfileSource source{s.fluid, s.ordering.fluid_sources(s.fluid), s.box, s.flow.smoothing,
+                             s.displacement};
   return measure_profile(s.context, source, s.setup.lines.at(line), s.setup.domain.lower);
 }
 

@@ -3,7 +3,6 @@
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "fluid/yield_rheology.hpp"
 #include "viscosity/exact_yield.hpp"
 
@@ -24,11 +23,10 @@ struct Halves {
   Lanes own = 1, other = 1, slip = 0;
 };
 
-// The pairs of one particle, with the root of C (d+2) |F| / r^2 for each.
-template <class Smoothing, class Box>
+// The pairs of one particle, with the root of C (d+2) w for each.
+template <class Box>
 struct PairLoop {
   PairContext c;
-  Smoothing smoothing;
   Box box;
 
   // visit(at, j, root of the volumes V_j, d, root)
@@ -44,7 +42,7 @@ struct PairLoop {
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
-      const Lanes weight = (-c.flow.shear_factor * smoothing.gradient(root(r2))) / (r2 + c.flow.softening);
+      const Lanes weight = c.flow.shear_factor * c.flow.smoothing.viscous(r2);
       visit(at, j, there.w, d, select(near, root(weight), Lanes(0)));
     }
   }
@@ -75,7 +73,7 @@ struct PairLoop {
       if (r2 < square(c.flow.support) && motion.w >= 0) {
         const Real stick = no_slip_factor(WallPairGeometry<Real, Quad>{d, c.wall.normal[j], c.wall.back[j]},
                                           c.flow.spacing, motion.w);
-        g = wall_strain_factor(c.flow, stick, smoothing.gradient(std::sqrt(r2)), r2);
+        g = wall_strain_factor(c.flow, stick, c.flow.smoothing.viscous(r2));
       }
       visit(at, xyz(motion), d, g);
     }
@@ -83,9 +81,9 @@ struct PairLoop {
 };
 
 // w of the result: the size of what was added up, for its rounding.
-template <class Smoothing, class Box>
+template <class Box>
 struct AddForce {
-  PairLoop<Smoothing, Box> loop;
+  PairLoop<Box> loop;
   Span<const Real> own, other, wall, held;
   Real dt;
   Span<const Quad> base;
@@ -143,9 +141,9 @@ HOST_DEVICE inline RowSums<Real> sum_of(const RowSums<Lanes>& a, const RowSums<R
           total(a.size) + b.size};
 }
 
-template <class Smoothing, class Box>
+template <class Box>
 struct Update {
-  PairLoop<Smoothing, Box> loop;
+  PairLoop<Box> loop;
   Velocities velocity;
   Span<const Real> held, augmentation;
   Span<Real> own, other, wall, new_held;
@@ -240,11 +238,10 @@ struct StressLength {
 
 template <class Run>
 void with_box(const PairContext& c, Run run) {
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
   if (c.box.any())
-    run(PairLoop<Lucy, PeriodicBox>{c, smoothing, c.box});
+    run(PairLoop<PeriodicBox>{c, c.box});
   else
-    run(PairLoop<Lucy, OpenBox>{c, smoothing, {}});
+    run(PairLoop<OpenBox>{c, {}});
 }
 
 }  // namespace
@@ -274,8 +271,8 @@ ExactYield::ExactYield(Context& c)
 void ExactYield::add_force(const PairContext& c, Real dt, Span<const Quad> base, Span<Quad> force) {
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield forces", c.fluid.count,
-           AddForce<decltype(loop.smoothing), decltype(loop.box)>{
-               loop, own_.span(), other_.span(), wall_.span(), held_.span(), dt, base, force});
+           AddForce<decltype(loop.box)>{loop, own_.span(), other_.span(), wall_.span(), held_.span(), dt,
+                                        base, force});
   });
 }
 
@@ -293,19 +290,19 @@ ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> pre
   gap_.resize(n), shear_.resize(n), rounding_.resize(n), stress_.resize(n), spare_held_.resize(n);
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield stresses", n,
-           Update<decltype(loop.smoothing), decltype(loop.box)>{loop,
-                                                                {predicted, increment},
-                                                                held_.span(),
-                                                                augmentations_.span(),
-                                                                own_.span(),
-                                                                other_.span(),
-                                                                wall_.span(),
-                                                                spare_held_.span(),
-                                                                c.flow.spacing / unit_,
-                                                                gap_.span(),
-                                                                shear_.span(),
-                                                                rounding_.span(),
-                                                                stress_.span()});
+           Update<decltype(loop.box)>{loop,
+                                      {predicted, increment},
+                                      held_.span(),
+                                      augmentations_.span(),
+                                      own_.span(),
+                                      other_.span(),
+                                      wall_.span(),
+                                      spare_held_.span(),
+                                      c.flow.spacing / unit_,
+                                      gap_.span(),
+                                      shear_.span(),
+                                      rounding_.span(),
+                                      stress_.span()});
   });
   held_.swap(spare_held_);
   auto rms = [&](Buffer<double>& v) { return std::sqrt(sum(context_, v.span()) / n); };

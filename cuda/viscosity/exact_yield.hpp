@@ -20,9 +20,9 @@
 
 namespace slagflow {
 
-// g of the pair with a wall particle at distance r, `gradient`: F; `stick`: what no_slip_factor says.
-HOST_DEVICE inline Real wall_strain_factor(const FlowConstants& flow, Real stick, Real gradient, Real r2) {
-  return std::sqrt(-2 * stick * flow.shear_factor * flow.wall_volume * gradient / (r2 + flow.softening));
+// g of the pair with a wall particle, w its viscous weight; `stick`: what no_slip_factor says.
+HOST_DEVICE inline Real wall_strain_factor(const FlowConstants& flow, Real stick, Real w) {
+  return std::sqrt(2 * stick * flow.shear_factor * flow.wall_volume * w);
 }
 
 // p of the entries of the wall list and f of the particles; without data where no yield stress is exact.

@@ -1,6 +1,5 @@
 #include "backend/launch.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "pressure/pair_pressure.hpp"
 #include "viscosity/pair_viscosity.hpp"
 #include "viscosity/predictor.hpp"
@@ -10,10 +9,11 @@ namespace slagflow {
 
 namespace {
 
-template <class Smoothing, class Box>
+using Side = PressureSide<Lanes>;
+
+template <class Box>
 struct PredictAndAssemble {
   PairContext c;
-  Smoothing smoothing;
   Box box;
   Real dt, implicit_dt;  // implicit_dt = theta dt
   PredictorOutput out;
@@ -30,7 +30,9 @@ struct PredictAndAssemble {
   HOST_DEVICE void operator()(Index i) const {
     const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
-    const Real factor = -implicit_dt * c.flow.operator_factor;
+    const Real factor = implicit_dt * c.flow.operator_factor;
+    const PressureSide<Real> one = pressure_side<Real>(c.flow, own);
+    const Side side{one.pressure, one.in_tension};
     LaneVec3 pressure, pairing, diagonal;
     const Offset first = c.fluid_list.row(i);
     const Index entries = c.fluid_list.length[i];
@@ -43,13 +45,12 @@ struct PredictAndAssemble {
       Lanes weight = 0;
       if (bits(near)) {
         const QuadLanes other = gather(c.fluid.state, j);
-        const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0)), share = other.z * f;
-        pressure -= (share * (own.x + other.x)) * d;
-        if (bits(near & (r < Lanes(c.flow.spacing))))
-          pairing -= (share * pairing_pressure(c.flow, smoothing, Lanes(own.x), other.x, r)) * d;
+        const Lanes volume = select(near, other.z, Lanes(0)), share = volume * c.flow.smoothing.gradient(r2);
+        pressure -= (volume * pressure_slope(c.flow, side, pressure_side<Lanes>(c.flow, other), r2)) * d;
+        pairing -= (share * pairing_pressure(c.flow, Lanes(own.x), other.x, r2)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
-        weight = (factor * own.z * share) * mean / (r2 + c.flow.softening);
+        weight = (factor * own.z * volume) * mean * c.flow.smoothing.viscous(r2);
         diagonal += pair_diagonal(weight, d);
       }
       store_lanes(&out.weight[at], weight);
@@ -71,6 +72,7 @@ struct PredictAndAssemble {
 
   HOST_DEVICE WallPart walls(Index i, Vec3 x, Quad own, Push& push) const {
     const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
+    const Lanes in_tension = tension_share(c.flow, own.w / own.z, own.y);
     LaneVec3 elastic, given, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);
@@ -81,16 +83,18 @@ struct PredictAndAssemble {
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
       if (!bits(near)) continue;
-      const Lanes r = root(r2), f = select(near, smoothing.gradient(r), Lanes(0));
       const WallPressures<Lanes> p = towards_walls(c, i, own.x, wall_tension_limits(c, j));
-      elastic -= (f * p.elastic) * d;
-      given -=
-          (f * (pair_pressure(c.flow, smoothing, p.fluid, gather(c.wall.pressure, j), r) - p.elastic)) * d;
+      const Lanes own_slope =
+          pressure_slope(c.flow, Side{p.elastic, in_tension}, Side{Lanes(0), Lanes(0)}, r2);
+      const Lanes all = pair_pressure_slope(c.flow, Side{p.fluid, in_tension},
+                                            Side{gather(c.wall.pressure, j), in_tension}, r2);
+      elastic -= select(near, own_slope, Lanes(0)) * d;
+      given -= select(near, all - own_slope, Lanes(0)) * d;
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
-      const Lanes weight = -factor * stick * f / (r2 + c.flow.softening);
-      const Lanes sticking = select(motion.w < Lanes(0), Lanes(0), weight);
+      const Lanes weight = factor * stick * c.flow.smoothing.viscous(r2);
+      const Lanes sticking = select(near, select(motion.w < Lanes(0), Lanes(0), weight), Lanes(0));
       add_coupling(c.flow.coupling, sticking, d, coupled);
       drag += couple(c.flow.coupling, sticking, d, xyz(motion));
     }
@@ -118,10 +122,9 @@ struct PredictAndAssemble {
 
 void predict_and_assemble(Context& context, const PairContext& c, const PredictorOutput& out, Real dt,
                           Real theta) {
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
   auto sweep = [&](auto box) {
     launch(context, "predictor and assembly", c.fluid.count,
-           PredictAndAssemble<Lucy, decltype(box)>{c, smoothing, box, dt, theta * dt, out});
+           PredictAndAssemble<decltype(box)>{c, box, dt, theta * dt, out});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

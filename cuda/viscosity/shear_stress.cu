@@ -1,5 +1,4 @@
 #include "backend/launch.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "viscosity/pair_viscosity.hpp"
 #include "viscosity/shear_stress.hpp"
 
@@ -7,10 +6,9 @@ namespace slagflow {
 
 namespace {
 
-template <class Smoothing, class Box>
+template <class Box>
 struct ShearStress {
   PairContext c;
-  Smoothing smoothing;
   Box box;
   Span<Real> result;
 
@@ -27,7 +25,7 @@ struct ShearStress {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i])), v = in_lanes(xyz(c.fluid.motion[i]));
     // The laplacian's force carries eta grad v, whose symmetric part is half of 2 eta D.
     const Real half = c.flow.coupling == PairCoupling::radial ? Real(0.5) : Real(1);
-    const Real factor = -half * c.flow.operator_factor, own = c.fluid.state[i].y;
+    const Real factor = half * c.flow.operator_factor, own = c.fluid.state[i].y;
     SymmetricMatrix3<Lanes> sum;
     add_fluid(i, x, v, factor, own, sum);
     add_walls(i, x, v, factor * own * c.flow.wall_volume, sum);
@@ -51,8 +49,8 @@ struct ShearStress {
       if (!bits(near)) continue;
       const QuadLanes other = gather(c.fluid.state, j);
       const Lanes mean = pair_viscosity(c, i, Lanes(own), other.y, j);
-      const Lanes f = select(near, smoothing.gradient(root(r2)), Lanes(0));
-      add(factor * other.z * f * mean / (r2 + c.flow.softening), d, v - xyz(gather(c.fluid.motion, j)), sum);
+      const Lanes weight = select(near, c.flow.smoothing.viscous(r2), Lanes(0));
+      add(factor * other.z * weight * mean, d, v - xyz(gather(c.fluid.motion, j)), sum);
     }
   }
 
@@ -70,8 +68,7 @@ struct ShearStress {
       const QuadLanes motion = gather(c.wall.velocity, j);
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const Lanes stick = no_slip_factor(pair, c.flow.spacing, motion.w);
-      const Lanes f = select(near, smoothing.gradient(root(r2)), Lanes(0));
-      const Lanes weight = factor * stick * f / (r2 + c.flow.softening);
+      const Lanes weight = factor * stick * select(near, c.flow.smoothing.viscous(r2), Lanes(0));
       add(select(motion.w < Lanes(0), Lanes(0), weight), d, v - xyz(motion), sum);
     }
   }
@@ -80,10 +77,8 @@ struct ShearStress {
 }  // namespace
 
 void measure_shear_stress(Context& context, const PairContext& c, Span<Real> result) {
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
   auto sweep = [&](auto box) {
-    launch(context, "shear stress", c.fluid.count,
-           ShearStress<Lucy, decltype(box)>{c, smoothing, box, result});
+    launch(context, "shear stress", c.fluid.count, ShearStress<decltype(box)>{c, box, result});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "backend/launch.hpp"
+#include "fluid/constants.hpp"
 #include "walls/moving_walls.hpp"
 
 namespace slagflow {
@@ -52,15 +53,12 @@ Quad surface_velocity(const WallBody& body, Vec3d position, Vec3d normal, double
   return quad(to_real(v), static_cast<Real>(slip));
 }
 
-// Of each wall particle [Pa]; empty where all have the fluid's.
+// Of each wall particle [Pa]; empty where all have the same.
 std::vector<Real> tension_limits(const SimulationSetup& setup) {
-  const double fluid = setup.numerics.tension_limit;
-  auto limit = [&](const WallBody& b) { return b.tension_limit < 0 ? fluid : b.tension_limit; };
-  const auto differs = [&](const WallBody& b) { return limit(b) != fluid; };
-  if (std::none_of(setup.bodies.begin(), setup.bodies.end(), differs)) return {};
+  if (common_wall_tension_limit(setup) >= 0) return {};
   std::vector<Real> result;
   for (const std::uint8_t body : setup.walls.body)
-    result.push_back(static_cast<Real>(limit(setup.bodies[body])));
+    result.push_back(static_cast<Real>(wall_tension_limit(setup.bodies[body], setup.numerics)));
   return result;
 }
 

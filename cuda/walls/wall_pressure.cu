@@ -1,6 +1,5 @@
 #include "backend/launch.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/smoothing/lucy.hpp"
 #include "walls/wall_pressure.hpp"
 #include "walls/wall_tension.hpp"
 
@@ -8,11 +7,10 @@ namespace slagflow {
 
 namespace {
 
-template <class Smoothing, class Box>
+template <class Box>
 struct WallPressure {
   PairContext c;
   ListView list;
-  Smoothing smoothing;
   Box box;
   Span<Real> pressure;
 
@@ -25,7 +23,7 @@ struct WallPressure {
     for (Index k = 0; k < entries; k += lane_count) {
       const Index* f = &list.entry[first + k * ListView::stride()];
       const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, f)));
-      const Lanes weight = select(first_lanes(entries - k), smoothing.value(root(dot(d, d))), Lanes(0));
+      const Lanes weight = select(first_lanes(entries - k), c.flow.smoothing.value(dot(d, d)), Lanes(0));
       weights += weight;
       sum += weight * (fluid_pressure(f, limit) + density(f) * dot(gravity, d));
     }
@@ -53,10 +51,9 @@ struct WallPressure {
 
 void extrapolate_wall_pressure(Context& context, const PairContext& c, const ListView& list,
                                WallArrays& wall) {
-  const Lucy smoothing(c.flow.support, c.flow.dimensions);
   auto sweep = [&](auto box) {
     launch(context, "wall pressure", wall.count,
-           WallPressure<Lucy, decltype(box)>{c, list, smoothing, box, wall.pressure.span()});
+           WallPressure<decltype(box)>{c, list, box, wall.pressure.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

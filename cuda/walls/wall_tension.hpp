@@ -7,20 +7,20 @@
 
 namespace slagflow {
 
-// Whether some wall has a limit of its own. Its pairs then cut off both their pressures there, not at the
-// fluid's p_t.
+// Whether walls bear another tension than the fluid. Their pairs then cut off both their pressures there, not
+// at the fluid's p_t.
 HOST_DEVICE inline bool walls_have_tension_limits(const PairContext& c) {
-  return c.wall.tension_limit.size > 0;
+  return c.wall.tension_limit.size > 0 || c.flow.wall_tension_limit != c.flow.tension_limit;
 }
 
 // Of wall particle w [Pa].
 HOST_DEVICE inline Real wall_tension_limit(const PairContext& c, Index w) {
-  return walls_have_tension_limits(c) ? c.wall.tension_limit[c.wall.id[w]] : c.flow.tension_limit;
+  return c.wall.tension_limit.size > 0 ? c.wall.tension_limit[c.wall.id[w]] : c.flow.wall_tension_limit;
 }
 
 // Of wall particles w[0], w[1], ..., one a lane [Pa].
 HOST_DEVICE inline Lanes wall_tension_limits(const PairContext& c, const Index* w) {
-  if (!walls_have_tension_limits(c)) return c.flow.tension_limit;
+  if (c.wall.tension_limit.size == 0) return c.flow.wall_tension_limit;
   Real limit[lane_count];
   for (int k = 0; k < lane_count; ++k) limit[k] = wall_tension_limit(c, w[k]);
   return load_lanes(limit);

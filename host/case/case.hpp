@@ -141,9 +141,8 @@ struct Case {
   std::vector<WallSpec> walls;
   DomainSetup domain;
   std::array<bool, 6> exits{};  // faces -x +x -y +y -z +z that fluid is meant to leave through
-  std::string kernel = "lucy";
-  NumericsSetup numerics;  // sound_speed 0: automatic, see BuiltCase::resolved
-  LimitSetup limits;       // max_speed 0: automatic, see BuiltCase::resolved
+  NumericsSetup numerics;       // sound_speed 0: automatic, see BuiltCase::resolved
+  LimitSetup limits;            // max_speed 0: automatic, see BuiltCase::resolved
   OutputSpec output;
   std::vector<MeasureSpec> measures;
 

@@ -4,7 +4,9 @@
 namespace slagflow {
 namespace {
 
-const Words kernel_names{"lucy"};
+const Words kernel_names(smoothing_names.begin(), smoothing_names.end());
+const Words weight_names{"lattice", "value", "gradient"};
+const Words tension_names{"auto", "viscous", "limit"};
 const Words scheme_names{"slagflow", "paper"};
 const Words operator_names{"radial", "laplacian"};
 const Words explicit_names{"old_velocity", "predicted"};
@@ -15,16 +17,20 @@ const Words loop_names{"batch", "conditional"};
 
 enum class Scheme { slagflow, paper };
 
-// One word for the viscous step as the paper has it; keys that are given go before it.
+// One word for what the paper has; keys that are given go before it.
 void describe_scheme(CaseVisitor& v, NumericsSetup& n) {
   Scheme scheme = Scheme::slagflow;
-  v.choice(key("scheme",
-               "paper: the viscous step as the paper has it, operator = \"laplacian\", explicit_part = "
-               "\"predicted\", theta = 0.5, solver = \"sor\", viscosity_correction = 1; keys that are given "
-               "go before it")
-               .shorthand(),
-           scheme, scheme_names);
+  v.choice(
+      key("scheme",
+          "paper: smoothing function and viscous step as the paper has them, kernel = \"lucy\", "
+          "viscous_weight = \"gradient\", operator = \"laplacian\", explicit_part = \"predicted\", theta = "
+          "0.5, solver = \"sor\", viscosity_correction = 1, and no tension: tension = \"limit\", "
+          "tension_limit = 0; keys that are given go before it")
+          .shorthand(),
+      scheme, scheme_names);
   if (scheme != Scheme::paper) return;
+  n.kernel = SmoothingKind::lucy, n.viscous_weight = ViscousWeight::gradient;
+  n.tension = TensionModel::limit, n.tension_limit = 0;
   n.viscous_operator = ViscousOperator::laplacian;
   n.explicit_part = ExplicitPart::predicted;
   n.viscosity_correction = 1;
@@ -55,14 +61,13 @@ void describe_yield(CaseVisitor& v, NumericsSetup& n) {
 
 // Operator, time integration and yield stress.
 void describe_viscous_step(CaseVisitor& v, NumericsSetup& n) {
-  describe_scheme(v, n);
   v.choice(key("operator", "laplacian: for comparison, see below the equations"), n.viscous_operator,
            operator_names);
   v.choice(key("explicit_part", "what the explicit part of (7) acts on when theta < 1"), n.explicit_part,
            explicit_names);
   v.number(key("viscosity_correction",
                "C of equation (7); auto: from the kernel and the support ratio, equation (16); "
-               "1.047 at 2.6. slagflow check shows it")
+               "1.000 at 2.6. slagflow check shows it")
                .or_word("auto", 0),
            n.viscosity_correction, between(0.5, 2, ""));
   v.choice(key("viscous_step", "explicit: no solve, but the time step of equation (5)"), n.viscous_step,
@@ -102,16 +107,35 @@ bool has_surface_tension(const Case& c) {
   return false;
 }
 
-void describe_kernel(CaseVisitor& v, Case& c) {
-  std::size_t index = 0;
-  while (index + 1 < kernel_names.size() && kernel_names[index] != c.kernel) ++index;
-  v.choice(key("kernel", "the smoothing function, equation (1)"), index, kernel_names);
-  c.kernel = kernel_names[index];
+void describe_tension(CaseVisitor& v, NumericsSetup& n) {
+  v.choice(
+      key("tension",
+          "what fluid bears below zero pressure; viscous: what its viscous stress can ask for, and what "
+          "expands beyond that is void, equation (11); limit: tension_limit everywhere, walls too, while "
+          "the density goes on falling, for fluid without a free surface; auto: limit where the fluid has no "
+          "free "
+          "surface at the start, else viscous"),
+      n.tension, tension_names);
+  v.number(
+      key("tension_limit",
+          "p_t of equation (11): the most tension that the fluid bears, the air's pressure; for less at a "
+          "wall see wall"),
+      n.tension_limit, at_least(0, "Pa"));
 }
 
 }  // namespace
 
 void describe(CaseVisitor& v, NumericsSetup& n) {
+  describe_scheme(v, n);
+  v.choice(
+      key("kernel",
+          "the smoothing function, equation (1); level: without friction of the lattice, for support_ratio "
+          "2.4 to 4; lucy: the paper's"),
+      n.kernel, kernel_names);
+  v.choice(
+      key("viscous_weight",
+          "w of equation (7); lattice: right on lattices in every direction; value: A W; gradient: -F/r²"),
+      n.viscous_weight, weight_names);
   v.number(key("sound_speed", "c₀ of equation (11); auto: see The automatic sound speed").or_word("auto", 0),
            n.sound_speed, above(0, "m/s"));
   v.number(key("courant", "equation (13)"), n.courant, above_to(0, 1.2, ""));
@@ -121,10 +145,12 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
                "would be unstable")
                .by_default("0.1; 0.01 where a fluid has surface tension"),
            n.density_diffusion, between(0, 1, ""));
-  v.number(key("tension_limit",
-               "p_t of equation (11): how much tension the fluid bears; for less at a wall see wall"),
-           n.tension_limit, at_least(0, "Pa"));
-  v.number(key("anti_pairing", "ε of equation (15)"), n.anti_pairing, between(0, 1, ""));
+  describe_tension(v, n);
+  v.number(
+      key("anti_pairing",
+          "ε of equation (15); auto: 0.1 where a fluid has surface tension or the kernel is lucy, else 0")
+          .or_word("auto", -1),
+      n.anti_pairing, between(0, 1, ""));
   v.number(key("shifting",
                "A of equation (19): keeps sheared particles evenly spread; 0.2 suits confined flows, free "
                "surfaces take no notice of it"),
@@ -138,10 +164,7 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
 void describe_numerics(CaseVisitor& v, Case& c) {
   // Diffusion of the density undermines the pressure that balances surface tension.
   if (v.takes_defaults() && has_surface_tension(c)) c.numerics.density_diffusion = 0.01;
-  v.table(key("numerics", "how it is computed"), [&] {
-    describe_kernel(v, c);
-    describe(v, c.numerics);
-  });
+  v.table(key("numerics", "how it is computed"), [&] { describe(v, c.numerics); });
 }
 
 }  // namespace slagflow

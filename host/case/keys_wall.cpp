@@ -97,12 +97,13 @@ void describe_wall(CaseVisitor& v, Case& c, WallSpec& wall) {
   describe_slip(v, wall);
   v.number(key("contact_angle", "θ in (20), of fluids with surface tension"), wall.contact_angle,
            between(0, 180, "degrees"));
-  v.number(key("tension_limit",
-               "adhesion: p_t of the wall's pairs with fluid in (11) and (12), up to "
-               "numerics.tension_limit; auto: the same. Where a wall holds better than the fluid "
-               "itself, the fluid parts beside it")
-               .or_word("auto", -1),
-           wall.tension_limit, at_least(0, "Pa"));
+  v.number(
+      key("tension_limit",
+          "adhesion: p_t of the wall's pairs with fluid in (11) and (12), up to "
+          "numerics.tension_limit; auto: none, so that air gets between, and with numerics.tension = "
+          "\"limit\" the fluid's. Where a wall holds better than the fluid itself, the fluid parts beside it")
+          .or_word("auto", -1),
+      wall.tension_limit, at_least(0, "Pa"));
   describe_surface(v, wall);
   v.number(key("remove_at", "the wall vanishes: a gate that is gone at once").by_default("never"),
            wall.motion.remove_at, at_least(0, "s"));

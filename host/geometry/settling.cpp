@@ -43,7 +43,16 @@ std::vector<double> closed_pressure(const Case& c, const Filling& filling) {
 
 }  // namespace
 
-double settling_loss(double jitter) { return 0.2 * jitter * jitter; }
+bool has_free_surface(const Case& c, const Filling& filling) {
+  const StartSites& sites = *filling.sites;
+  for (const auto site : sites.taken())
+    if (at_surface(c, sites, site)) return true;
+  return false;
+}
+
+double settling_loss(SmoothingKind kernel, double jitter) {
+  return kernel == SmoothingKind::lucy ? 0.2 * jitter * jitter : 0.12 * jitter;
+}
 
 void warn_of_settling(const Case& resolved, const Filling& filling, std::vector<std::string>& warnings) {
   constexpr double tolerated = 0.1;
@@ -52,11 +61,13 @@ void warn_of_settling(const Case& resolved, const Filling& filling, std::vector<
   if (!any) return;
   const std::vector<double> pressure = closed_pressure(resolved, filling);
   const double c0 = resolved.numerics.sound_speed;
+  const bool limit = resolved.numerics.tension == TensionModel::limit;
+  const double borne = limit ? resolved.numerics.tension_limit : 0;
   for (std::size_t r = 0; r < pressure.size(); ++r) {
     const RegionSpec& region = resolved.regions[r];
     const double density = resolved.fluids[static_cast<std::size_t>(region.fluid)].density;
-    const double loss = settling_loss(region.jitter) * density * c0 * c0;
-    if (pressure[r] < 0 || loss <= tolerated * (pressure[r] + resolved.numerics.tension_limit)) continue;
+    const double loss = settling_loss(resolved.numerics.kernel, region.jitter) * density * c0 * c0;
+    if (pressure[r] < 0 || loss <= tolerated * (pressure[r] + borne)) continue;
     std::array<char, 300> text{};
     std::snprintf(
         text.data(), text.size(),

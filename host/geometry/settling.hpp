@@ -9,10 +9,13 @@
 
 namespace slagflow {
 
+// Whether some fluid has neither fluid nor wall beside it at the start.
+bool has_free_surface(const Case&, const Filling&);
+
 // (rho - rho0)/rho0 that fluid loses as particles which start `jitter` spacings off their sites, along each
 // axis, come to rest evenly spaced: the pair sums of the start have counted them as denser. Measured in
 // closed boxes, 2-D and 3-D, jitter 0.05 to 0.5: 0.16 to 0.28 jitter^2.
-double settling_loss(double jitter);
+double settling_loss(SmoothingKind, double jitter);
 
 // Warns of each region with jitter whose fluid has no free surface and loses more than a tenth of its
 // pressure by that, and says with which pressure to start: under a free surface the fluid sinks by that share

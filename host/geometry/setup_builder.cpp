@@ -100,6 +100,9 @@ BuiltCase build_setup(const Case& c) {
   built.sound_speed_terms = sound_speed_terms(c, filling);
   if (!(c.numerics.sound_speed > 0))
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
+  TensionModel& tension = built.resolved.numerics.tension;
+  if (tension == TensionModel::automatic)
+    tension = has_free_surface(c, filling) ? TensionModel::viscous : TensionModel::limit;
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_currents(c, built.warnings);
   const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);

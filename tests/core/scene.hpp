@@ -239,7 +239,11 @@ class Scene {
     world.dimensions = setup.dimensions, world.spacing = spacing,
     world.support = setup.support_ratio * spacing;
     world.sound_speed = n.sound_speed, world.diffusion = n.density_diffusion;
-    world.tension_limit = n.tension_limit, world.anti_pairing = n.anti_pairing;
+    world.tension_limit = n.tension_limit, world.anti_pairing = anti_pairing(setup);
+    world.kernel = static_cast<reference::Kernel>(n.kernel);
+    world.weight = static_cast<reference::Weight>(n.viscous_weight);
+    world.viscous_tension = n.tension != TensionModel::limit;
+    world.wall_tension_limit = common_wall_tension_limit(setup);
     world.correction = viscosity_correction(setup);
     const Vec3d g = setup.gravity, b = setup.body_acceleration;
     world.gravity = {g.x, g.y, g.z}, world.body_acceleration = {b.x, b.y, b.z};

@@ -55,7 +55,11 @@ class Oracle {
   }
 
  private:
-  double slope(Vec d) const { return reference::slope_over_distance(w_, length(d)); }
+  // The colour has Lucy's function whatever the pressure has.
+  double slope(Vec d) const {
+    const reference::SmoothingFunction lucy{reference::Kernel::lucy, w_.support, w_.dimensions};
+    return lucy.slope(length(d)) / length(d);
+  }
 
   double weight(double r) const {
     const double q = r / w_.support, h = w_.support;

@@ -10,15 +10,21 @@ namespace {
 
 using testing_tools::Random;
 
-// Lucy's function with h = 1: F = (1/r) dW/dr.
-double slope_over_r(double r, int dimensions) {
-  const double pi = 3.14159265358979323846;
-  const double sigma = dimensions == 2 ? 5 / pi : 105 / (16 * pi);
-  return -12 * sigma * (1 - r) * (1 - r);
+constexpr PairWeighting pairs_of[] = {{SmoothingKind::level, ViscousWeight::lattice},
+                                      {SmoothingKind::level, ViscousWeight::value},
+                                      {SmoothingKind::lucy, ViscousWeight::gradient}};
+
+// Of a support of 1.
+double weight_of(const PairWeighting& pairs, double r, int dimensions) {
+  const auto kernel = static_cast<reference::Kernel>(pairs.kernel);
+  if (pairs.weight == ViscousWeight::lattice) return reference::lattice_weight(r, 1, dimensions);
+  if (pairs.weight == ViscousWeight::value) return reference::value_weight(kernel, r, 1, dimensions);
+  return -reference::SmoothingFunction{kernel, 1, dimensions}.slope(r) / (r * r * r);
 }
 
 // Mean over random positions of the layers of the sum that a sheared particle sees.
-double sum_over_sliding_layers(ViscousOperator kind, double ratio, int dimensions) {
+double sum_over_sliding_layers(ViscousOperator kind, const PairWeighting& pairs, double ratio,
+                               int dimensions) {
   const double dx = 1 / ratio, volume = dimensions == 3 ? dx * dx * dx : dx * dx;
   const int reach = static_cast<int>(ratio) + 2, samples = 4000;
   Random random(3);
@@ -32,9 +38,9 @@ double sum_over_sliding_layers(ViscousOperator kind, double ratio, int dimension
           const double x = i * dx + shift_x, z = dimensions == 3 ? k * dx + shift_z : 0;
           const double r2 = x * x + y * y + z * z;
           if (r2 >= 1) continue;
-          const double weight = -volume * slope_over_r(std::sqrt(r2), dimensions);
-          sum += kind == ViscousOperator::radial ? weight * (dimensions + 2) * x * x * y * y / r2
-                                                 : weight * y * y;
+          const double weight = volume * weight_of(pairs, std::sqrt(r2), dimensions);
+          sum += kind == ViscousOperator::radial ? weight * (dimensions + 2) * x * x * y * y
+                                                 : weight * r2 * y * y;
         }
     }
   return sum / samples;
@@ -45,20 +51,24 @@ TEST(LatticeViscosity, IsTheMeanOverSlidingLayers) {
     for (const double ratio : {2.1, 2.6, 3.1})
       for (const auto kind : {ViscousOperator::radial, ViscousOperator::laplacian})
         // Standard error of 4000 samples: below 0.1 %.
-        EXPECT_NEAR(lattice_viscosity(kind, ratio, dimensions),
-                    sum_over_sliding_layers(kind, ratio, dimensions), 0.004)
-            << dimensions << "-D, support ratio " << ratio;
+        for (const PairWeighting& pairs : pairs_of)
+          EXPECT_NEAR(lattice_viscosity(kind, pairs, ratio, dimensions),
+                      sum_over_sliding_layers(kind, pairs, ratio, dimensions), 0.004)
+              << dimensions << "-D, support ratio " << ratio;
 }
 
 TEST(LatticeViscosity, TendsToOneAsTheSupportGrows) {
   for (const int dimensions : {2, 3})
     for (const auto kind : {ViscousOperator::radial, ViscousOperator::laplacian})
-      EXPECT_NEAR(lattice_viscosity(kind, 20, dimensions), 1, 1e-3);
+      for (const PairWeighting& pairs : pairs_of)
+        EXPECT_NEAR(lattice_viscosity(kind, pairs, 20, dimensions), 1, 1e-3);
 }
 
 TEST(LatticeViscosity, GivesTheCorrectionUnlessOneIsGiven) {
-  SimulationSetup setup;
-  EXPECT_NEAR(viscosity_correction(setup), 1.047, 0.001);  // h = 2.6 spacings in 3-D
+  SimulationSetup setup;  // h = 2.6 spacings in 3-D
+  EXPECT_NEAR(viscosity_correction(setup), 1, 0.001);
+  setup.numerics.kernel = SmoothingKind::lucy, setup.numerics.viscous_weight = ViscousWeight::gradient;
+  EXPECT_NEAR(viscosity_correction(setup), 1.047, 0.001);
   setup.numerics.viscosity_correction = 1.2;
   EXPECT_EQ(viscosity_correction(setup), 1.2);
 }

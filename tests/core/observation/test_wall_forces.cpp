@@ -113,6 +113,7 @@ TEST(WallForces, FluidHangsFromAWallThatBearsTensionAlone) {
     SimulationSetup s = tank(oil());
     s.gravity.z = 9.81;
     for (double& p : s.particles.pressure) p = -p;
+    s.numerics.tension = TensionModel::limit, s.bodies[0].slip = WallSlip::free_slip;
     s.numerics.tension_limit = 1e5, s.bodies[0].tension_limit = limit;
     Simulation simulation(s);
     double speeds = 0, falls = 0, speed = 0, fall = 0;

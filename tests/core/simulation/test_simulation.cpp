@@ -97,8 +97,8 @@ TEST(Simulation, SnapshotsAreOrderedByIdAndPlausible) {
     const bool is_slag = s.id[i] < 147;
     EXPECT_EQ(s.fluid[i], is_slag ? 0 : 1) << s.id[i];
     EXPECT_NEAR(static_cast<double>(s.density[i]), is_slag ? 2600 : 900, is_slag ? 800 : 300);
-    EXPECT_GE(s.pressure[i], 0);
     EXPECT_GE(s.shear_rate[i], 0);
+    EXPECT_GE(s.pressure[i], -8.001 * s.viscosity[i] * s.shear_rate[i]);
     EXPECT_NEAR(static_cast<double>(s.viscosity[i]),
                 static_cast<double>(viscosity(is_slag ? slag().rheology : oil().rheology,
                                               static_cast<Real>(s.shear_rate[i]))),
@@ -323,6 +323,7 @@ TEST(Simulation, GoesOnWhenAllParticlesHaveLeft) {
 TEST(Simulation, SolveThatDoesNotConvergeIsRetriedWithASmallerStep) {
   SimulationSetup setup = dam();
   setup.numerics.solver = ViscousSolver::conjugate_gradient;
+  setup.numerics.tension = TensionModel::limit;  // else densities stop at what the stress holds
   Simulation smooth(setup);
   smooth.step();
   const int needed = smooth.last_solve().iterations;

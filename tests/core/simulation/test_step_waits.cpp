@@ -94,7 +94,7 @@ TEST(StepWaits, NoStepBetweenTwoBuildsTakesMemory) {
     EXPECT_EQ(c.allocations, 0) << "in step " << k;
     ++between;
   }
-  EXPECT_GT(between, 20);
+  EXPECT_GT(between, 15);
   EXPECT_LT(simulation.particles(), start) << "nothing left";
 }
 

@@ -18,14 +18,12 @@ struct Scheme {
   ViscousSolver solver;
 };
 
-// (K v)_i = sum_j w_ij (v_i - v_j),  w_ij = 2 C eta_ij V_i V_j |F_ij| r^2/(r^2 + 1e-6 h^2): one matrix for
-// all components.
+// (K v)_i = sum_j w_ij (v_i - v_j),  w_ij = 2 C eta_ij V_i V_j w(r) r^2: one matrix for all components.
 struct Laplacian {
   explicit Laplacian(const reference::World& w) : matrix(w.particles.size()), from_walls(w.particles.size()) {
     const auto weight = [&](double eta, double volumes, reference::Vec d) {
-      const double r2 = reference::dot(d, d);
-      return -2 * w.correction * eta * volumes * reference::slope_over_distance(w, reference::length(d)) *
-             r2 / (r2 + w.softening());
+      const double r = reference::length(d);
+      return 2 * w.correction * eta * volumes * reference::viscous_weight(w, r) * r * r;
     };
     for (std::size_t i = 0; i < w.particles.size(); ++i) {
       const reference::Particle& p = w.particles[i];

@@ -90,6 +90,7 @@ TEST_P(Predictor, PressureKeepsMomentum) {
 TEST_P(Predictor, AntiPairingPushesClosePairsApartAtEitherSignOfPressure) {
   scene_.world.walls.clear();
   scene_.world.particles.resize(2);
+  scene_.world.anti_pairing = 0.1, scene_.flow.anti_pairing = Real(0.1);
   auto& p = scene_.world.particles;
   for (double pressure : {100.0, -100.0}) {
     p[0].pressure = p[1].pressure = pressure;

@@ -39,7 +39,7 @@ TEST(Cases, EveryFileLoadsBuildsAsItsCommentSaysAndWritesItselfBack) {
     EXPECT_GT(built.setup.numerics.sound_speed, 0);
     // Two may lose pressure as they settle: the more of it, the more noise.
     EXPECT_THAT(built.warnings,
-                testing::Each(testing::HasSubstr("fills a closed space, and loses about 8 Pa")));
+                testing::Each(testing::HasSubstr("fills a closed space, and loses about 24 Pa")));
     if (const auto count = counts.find(c.name); count != counts.end()) {
       EXPECT_EQ(built.setup.particles.position.size(), count->second);
       ++counted;
