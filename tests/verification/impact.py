@@ -24,7 +24,7 @@ def impact(wall, body, mach, dimensions):
     speed = mach * SOUND_SPEED
     return Run(f"impact_{wall}_{body}_{mach}_{dimensions}", f"impact_{wall}", f"{dimensions}-D, {wall}, Mach {mach}", {
         "resolution.dimensions": dimensions,
-        "domain.exits": '["-x", "+x", "-y", "+y"]' if dimensions == 3 else '["-x", "+x"]',
+        "domain.exits": '["-x", "+x", "-y", "+y", "+z"]' if dimensions == 3 else '["-x", "+x", "+z"]',
         "region.0.shapes.0.min": [-wide / 2, -wide / 2, bottom],
         "region.0.shapes.0.max": [wide / 2, wide / 2, bottom + high],
         "region.0.velocity": [float(part) for part in -speed * normal(wall)],
@@ -64,7 +64,8 @@ def deepest(result):
 
 
 def lost(result):
-    """Particles that left where no exit is: the exits are where spray flies along a wall, and the end of the floor."""
+    """Particles that left where no exit is: the exits are where spray flies along a wall or up
+    from its corners, and the end of the floor."""
     return result.summary["lost_through_other_faces"]
 
 
