@@ -137,7 +137,7 @@ inline double viscous_weight(const World& w, double r) {
   return -slope_over_distance(w, r) / (r * r + w.softening());
 }
 
-// Share that the function of pairs under tension has in what particle p does below zero.
+// Share that the function of pairs under tension has in the continuity of particle p below zero.
 inline double tension_share(const World& w, const Particle& p) {
   if (w.kernel == Kernel::lucy) return 0;
   const double ratio = p.mass / p.volume * w.sound_speed * w.spacing / (40 * p.viscosity);
@@ -298,7 +298,7 @@ inline Sum acceleration(const World& w, std::size_t i, Vec* given = nullptr) {
   const double at_spacing = w.smoothing().value(w.spacing);
   Sum sum;
   sum.add(w.gravity + w.body_acceleration, length(w.gravity) + length(w.body_acceleration));
-  const double own_share = tension_share(w, p);
+  const double own_share = w.kernel == Kernel::lucy ? 0 : 1;
   auto pair = [&](Vec d, double volume, double own, Side there) {
     const double other = there.pressure;
     const double r = length(d), ratio = w.smoothing().value(r) / at_spacing;
@@ -313,7 +313,7 @@ inline Sum acceleration(const World& w, std::size_t i, Vec* given = nullptr) {
     if (given) *given = *given + a;
   };
   for_fluid_pairs(w, i, [&](const Particle& j, Vec d) {
-    give(pair(d, j.volume, p.pressure, {j.pressure, tension_share(w, j)}));
+    give(pair(d, j.volume, p.pressure, {j.pressure, own_share}));
   });
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
     const double elastic = w.pressure_towards(j, p), own = std::max(elastic, p.contact);

@@ -40,10 +40,7 @@ struct AddImpulse {
     const Real viscous_weight = c.flow.smoothing.viscous(r2);
     const WallPressures<Real> p = towards_walls(c, i, own.x, wall_tension_limit(c, w));
     const Real volumes = -dt * own.z * c.flow.wall_volume;
-    const Real in_tension = tension_share(c.flow, own.w / own.z, own.y);
-    const PressureSide<Real> fluid{p.fluid, in_tension}, behind{c.wall.pressure[w], in_tension},
-        elastic{p.elastic, in_tension}, none{0, 0};
-    Vec3d pressure = to_double((volumes * pair_pressure_slope(c.flow, fluid, behind, r2)) * d);
+    Vec3d pressure = to_double((volumes * pair_pressure_slope(c.flow, p.fluid, c.wall.pressure[w], r2)) * d);
     if (capillary.any())
       pressure +=
           to_double(dt * capillary_pull(capillary, tension_weight, i, d, std::sqrt(r2), c.flow.wall_volume));
@@ -66,7 +63,7 @@ struct AddImpulse {
     sum.work += dot(pressure + viscous, to_double(xyz(wall)));
     sum.viscous_work += dot(viscous, to_double(xyz(wall)));
     sum.elastic_work +=
-        dot(to_double((volumes * pressure_slope(c.flow, elastic, none, r2)) * d), to_double(xyz(wall)));
+        dot(to_double((volumes * pressure_slope(c.flow, p.elastic, Real(0), r2)) * d), to_double(xyz(wall)));
   }
 
   // It is stored with the pairs of the fluid particle.

@@ -19,47 +19,29 @@ HOST_DEVICE T pairing_pressure(const FlowConstants& flow, T own, T other, T r2) 
   return select(close, apart * (magnitude(own) + magnitude(other)), T(0));
 }
 
-// Share that the function for tension has below zero, of fluid of this density and viscosity. All of it
-// spreads thick fluid instead of clumping it; in thin fluid that splashes each pair would gain energy
-// whenever its pressure changes its sign. T: Real or Lanes.
-template <class T>
-HOST_DEVICE T tension_share(const FlowConstants& flow, T density, T viscosity) {
-  const T ratio = flow.tension_reference * density / viscosity;
-  return Real(1) / (T(1) + square(ratio));
+// Share of the function for tension in the continuity of fluid below zero, of this density and viscosity. All
+// of it goes with the forces, and thick fluid keeps the energy; in thin fluid that splashes each pair would
+// gain some whenever its pressure changes its sign.
+HOST_DEVICE inline Real tension_share(const FlowConstants& flow, Real density, Real viscosity) {
+  return 1 / (1 + square(flow.tension_reference * density / viscosity));
 }
 
-// A pressure, and the share of its slope that the function for tension has.
+// (p_i + p_j) F, each pressure below zero with the slope of the function for tension instead. T: Real or
+// Lanes.
 template <class T>
-struct PressureSide {
-  T pressure, in_tension;
-};
-
-// Of a particle: pressure, viscosity, volume, mass.
-template <class T, class State>  // Real and Quad, or Lanes and QuadLanes
-HOST_DEVICE PressureSide<T> pressure_side(const FlowConstants& flow, const State& s) {
-  if (!flow.flat_tension || !bits(s.x < T(0))) return {s.x, T(0)};
-  return {s.x, tension_share<T>(flow, s.w / s.z, s.y)};
-}
-
-// p_i F + p_j F, of pressures below zero with the share of the function for tension.
-template <class T>
-HOST_DEVICE T pressure_slope(const FlowConstants& flow, const PressureSide<T>& own,
-                             const PressureSide<T>& other, T r2) {
-  const T slope = flow.smoothing.gradient(r2), none = Real(0);
-  const T both = (own.pressure + other.pressure) * slope;
+HOST_DEVICE T pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
+  const T slope = flow.smoothing.gradient(r2), both = (own + other) * slope, none = Real(0);
   if (!flow.flat_tension) return both;
-  const T tension =
-      smaller(own.pressure, none) * own.in_tension + smaller(other.pressure, none) * other.in_tension;
+  const T tension = smaller(own, none) + smaller(other, none);
   if (!bits(tension < none)) return both;
   return both + tension * (flow.smoothing.tension_gradient(r2) - slope);
 }
 
 // The same with the pairing term.
 template <class T>
-HOST_DEVICE T pair_pressure_slope(const FlowConstants& flow, const PressureSide<T>& own,
-                                  const PressureSide<T>& other, T r2) {
+HOST_DEVICE T pair_pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
   return pressure_slope(flow, own, other, r2) +
-         pairing_pressure(flow, own.pressure, other.pressure, r2) * flow.smoothing.gradient(r2);
+         pairing_pressure(flow, own, other, r2) * flow.smoothing.gradient(r2);
 }
 
 }  // namespace slagflow

@@ -9,8 +9,6 @@ namespace slagflow {
 
 namespace {
 
-using Side = PressureSide<Lanes>;
-
 template <class Box>
 struct PredictAndAssemble {
   PairContext c;
@@ -31,8 +29,6 @@ struct PredictAndAssemble {
     const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
     const Real factor = implicit_dt * c.flow.operator_factor;
-    const PressureSide<Real> one = pressure_side<Real>(c.flow, own);
-    const Side side{one.pressure, one.in_tension};
     LaneVec3 pressure, pairing, diagonal;
     const Offset first = c.fluid_list.row(i);
     const Index entries = c.fluid_list.length[i];
@@ -46,7 +42,7 @@ struct PredictAndAssemble {
       if (bits(near)) {
         const QuadLanes other = gather(c.fluid.state, j);
         const Lanes volume = select(near, other.z, Lanes(0)), share = volume * c.flow.smoothing.gradient(r2);
-        pressure -= (volume * pressure_slope(c.flow, side, pressure_side<Lanes>(c.flow, other), r2)) * d;
+        pressure -= (volume * pressure_slope(c.flow, Lanes(own.x), other.x, r2)) * d;
         pairing -= (share * pairing_pressure(c.flow, Lanes(own.x), other.x, r2)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
@@ -72,7 +68,6 @@ struct PredictAndAssemble {
 
   HOST_DEVICE WallPart walls(Index i, Vec3 x, Quad own, Push& push) const {
     const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
-    const Lanes in_tension = tension_share(c.flow, own.w / own.z, own.y);
     LaneVec3 elastic, given, drag;
     SymmetricMatrix3<Lanes> coupled;
     const Offset first = c.wall_list.row(i);
@@ -84,10 +79,8 @@ struct PredictAndAssemble {
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
       if (!bits(near)) continue;
       const WallPressures<Lanes> p = towards_walls(c, i, own.x, wall_tension_limits(c, j));
-      const Lanes own_slope =
-          pressure_slope(c.flow, Side{p.elastic, in_tension}, Side{Lanes(0), Lanes(0)}, r2);
-      const Lanes all = pair_pressure_slope(c.flow, Side{p.fluid, in_tension},
-                                            Side{gather(c.wall.pressure, j), in_tension}, r2);
+      const Lanes own_slope = pressure_slope(c.flow, p.elastic, Lanes(0), r2);
+      const Lanes all = pair_pressure_slope(c.flow, p.fluid, gather(c.wall.pressure, j), r2);
       elastic -= select(near, own_slope, Lanes(0)) * d;
       given -= select(near, all - own_slope, Lanes(0)) * d;
       const QuadLanes motion = gather(c.wall.velocity, j);
