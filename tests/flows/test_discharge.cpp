@@ -76,7 +76,7 @@ TEST(Discharge, OilAIsAFreeJet) {
 
 TEST(Discharge, OilBIsAWeakJet) {
   const Discharge d = discharge(newtonian(970, 0.324));
-  EXPECT_NEAR(d.travelling_time, 0.192, 0.005);
+  EXPECT_NEAR(d.travelling_time, 0.199, 0.005);  // 0.192 without tension, which holds the sheet back
   EXPECT_GT(d.tan_theta, 0.10);
   EXPECT_LT(d.tan_theta, 0.20);
   expect_sound(d);
