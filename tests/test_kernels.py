@@ -58,7 +58,7 @@ class Kernels(unittest.TestCase):
     def test_the_record_can_be_read(self):
         version, rows = kernels.read_record()
         self.assertRegex(version, r"^\d+\.\d+$")
-        self.assertIn(("cuda/viscosity/predictor.cu", "PredictAndAssemble<Lucy, OpenBox>"), rows)
+        self.assertIn(("cuda/viscosity/predictor.cu", "PredictAndAssemble<OpenBox>"), rows)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,10 @@ from verification.suite import Run, profile_row, relative_row
 NAME = "pipe"
 TITLE = "pipe, slag"
 RADIUS = 0.01  # [m]
+MISSES = {
+    "20 across, Bingham: speed in the middle [m/s]": "particles that were sheared lie in disorder and resist a little less; "
+                                                     "0.01 % beyond the target",
+}
 
 
 def runs(quick):
