@@ -134,12 +134,16 @@ struct DensityAndShear {
       const WallPairGeometry<Lanes, QuadLanes> now{d + half * change, pair.normal, pair.back};
       sums.distance =
           smaller(sums.distance, select(near, distance_before(now, c.flow.spacing), sums.distance));
-      const Lanes stick = no_slip_factor(pair, c.flow.spacing, other.w);
-      // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
-      const Lanes dissipated =
-          Real(2) * stick * volume * c.flow.smoothing.viscous(r2) * square(dot(v - xyz(other), d));
-      sums.shear += select(other.w < Lanes(0), Lanes(0), dissipated);
+      sums.shear += volume * c.flow.smoothing.viscous(r2) * wall_strain(pair, other, v);
     }
+  }
+
+  // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
+  HOST_DEVICE Lanes wall_strain(const WallPairGeometry<Lanes, QuadLanes>& pair, const QuadLanes& wall,
+                                LaneVec3 velocity) const {
+    const Lanes stick = no_slip_factor(pair, c.flow.spacing, wall.w);
+    const Lanes strain = square(dot(velocity - xyz(wall), pair.fluid_minus_wall));
+    return select(wall.w < Lanes(0), Lanes(0), Real(2) * stick * strain);
   }
 };
 

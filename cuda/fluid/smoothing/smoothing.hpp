@@ -49,7 +49,7 @@ struct Smoothing {
   Real softening = 0;        // 1e-6 h^2 [m^2], keeps coincident pairs finite
 
   Smoothing() = default;
-  Smoothing(SmoothingKind, double support, int dimensions, ViscousWeight = ViscousWeight::lattice);
+  Smoothing(SmoothingKind which, double h, int dimensions, ViscousWeight weight = ViscousWeight::lattice);
 
   // W [1/m^2, 1/m^3], zero from the support on.
   template <class T>
