@@ -2,7 +2,7 @@
 // shear under pressure; with t = 1 - (r/h)^2:
 //   W h^d = sigma (a3 t^3 + a5 t^5 + a7 t^7 + a9 t^9 + a12 t^12)
 // The sum of V W over a lattice differs from one by the Fourier transform of W at its reciprocal lattice, and
-// times the pressure that is an energy whose slope in shear acts as a friction (README, Smoothing functions).
+// times the pressure that is an energy whose slope in shear acts as a friction (cuda/README.md).
 // The coefficients make it least over sheared and stretched lattices at h = 2.6 spacings (scripts/smoothing).
 #pragma once
 
