@@ -43,9 +43,9 @@ std::vector<Particle> read(const char* path) {
   return particles;
 }
 
-// Rounding of fp32 (6e-8) enters each step and grows with the flow: places moved by it at the start differ by up
-// to 4e-6 of the 5 mm spacing after 150 steps, velocities by up to 2e-5 of the largest. At step 172 a particle
-// leaves the wall or does not, whichever way rounding goes, and both differ by a thousandth.
+// Rounding of fp32 (6e-8) enters each step and grows with the flow: places moved by it at the start differ by
+// up to 4e-6 of the 5 mm spacing after 150 steps, velocities by up to 2e-5 of the largest. At step 172 a
+// particle leaves the wall or does not, whichever way rounding goes, and both differ by a thousandth.
 int compare(const char* first, const char* second) {
   const auto a = read(first), b = read(second);
   if (a.empty() || a.size() != b.size()) {

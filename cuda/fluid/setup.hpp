@@ -93,8 +93,8 @@ enum class SolverLoop { batch, conditional };
 
 // What fluid bears below zero pressure. viscous: what its own viscous stress can ask for; what expands beyond
 // that is void. limit: the same everywhere, walls too, and the density goes on falling: for fluid without a
-// free surface, where no void can be. automatic stands for the one that suits the case; here it is viscous.
-enum class TensionModel { automatic, viscous, limit };
+// free surface, where no void can be.
+enum class TensionModel { viscous, limit };
 
 struct NumericsSetup {
   SmoothingKind kernel = SmoothingKind::level;
@@ -103,10 +103,10 @@ struct NumericsSetup {
   double courant = 0.8;            // dt <= courant (h/2) / sound_speed
   double max_time_step = 0;        // [s], 0: no further limit
   double density_diffusion = 0.1;  // delta of Fourtakas et al. 2019
-  TensionModel tension = TensionModel::automatic;
+  TensionModel tension = TensionModel::viscous;
   double tension_limit = 1e5;       // [Pa] >= 0, the most that fluid bears: that of the air's pressure
   double anti_pairing = -1;         // epsilon of the term that keeps pairs apart, < 0: anti_pairing(setup)
-  double shifting = 0;              // A of the particle shifting (shifting.hpp)
+  double shifting = -1;             // A of the particle shifting (shifting.hpp), <= 0: none
   double viscosity_correction = 0;  // 0: from the kernel and the lattice (lattice_viscosity.hpp)
   ViscousStepping viscous_step = ViscousStepping::implicit_step;
   double diffusion_number = 0.1;  // d_i of equation (5), of the explicit step

@@ -7,8 +7,9 @@ namespace slagflow {
 namespace {
 
 struct Crowding {
-  LaneVec3 gradient;  // of the concentration [1/m]
-  Lanes fill = 0;     // d T
+  LaneVec3 gradient;           // of the concentration [1/m]
+  Lanes fill = 0;              // d T
+  Lanes nearest = Real(1e30);  // square of the distance of what it keeps off [m^2]
 };
 
 template <class Box>
@@ -19,32 +20,43 @@ struct Shift {
   Span<Vec3d> position;
 
   HOST_DEVICE void operator()(Index i) const {
-    constexpr Real surface = Real(0.92), inside = Real(0.97), most_strain = Real(0.1);
+    constexpr Real surface = Real(0.92), inside = Real(0.97), most = Real(0.024);
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
     Crowding sum;
     add(c.fluid_list, i, x, sum, c.fluid.place, false);
     add(c.wall_list, i, x, sum, c.wall.place, true);
-    const Real fill = total(sum.fill) / static_cast<Real>(c.flow.dimensions);
-    const Real share = smaller(Real(1), larger(Real(0), (fill - surface) / (inside - surface)));
-    const Real strain = smaller(step.shear_rate[i] * step.dt, most_strain);
-    position[i] -= to_double((step.amount * square(c.flow.support) * strain * share) * total(sum.gradient));
+    const Real fill = total(sum.fill) / static_cast<Real>(c.flow.dimensions),
+               off = std::sqrt(least(sum.nearest)) / c.flow.spacing - Real(1);
+    const Real share = ramp((fill - surface) / (inside - surface)) * ramp(off);
+    const Real pace = smaller(step.amount * step.shear_rate[i] * step.dt, most);
+    position[i] -= to_double((square(c.flow.support) * pace * share) * total(sum.gradient));
   }
+
+  HOST_DEVICE static Real ramp(Real x) { return smaller(Real(1), larger(Real(0), x)); }
 
   HOST_DEVICE void add(const ListView& list, Index i, LaneVec3 x, Crowding& sum, Span<const Quad> places,
                        bool walls) const {
     const Offset first = list.row(i);
     const Index pairs = list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const QuadLanes there = gather(places, &list.entry[first + k * ListView::stride()]);
+      const Index* j = &list.entry[first + k * ListView::stride()];
+      const QuadLanes there = gather(places, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
-      const Lanes volume = walls ? Lanes(c.flow.wall_volume) : there.w;
-      const Lanes weight = select(near, volume * c.flow.smoothing.gradient(r2), Lanes(0));
-      sum.gradient += weight * d;
-      sum.fill -= weight * r2;
+      const Lanes volume = select(near, walls ? Lanes(c.flow.wall_volume) : there.w, Lanes(0));
+      sum.gradient += (volume * c.flow.smoothing.crowding_gradient(r2)) * d;
+      sum.fill -= volume * c.flow.smoothing.gradient(r2) * r2;
+      if (walls)
+        sum.nearest = smaller(sum.nearest, select(near, r2, sum.nearest));
+      else if (c.fluids.size > 1)
+        sum.nearest = select(near & other_fluid(j, i), Lanes(0), sum.nearest);
     }
+  }
+
+  HOST_DEVICE LaneMask other_fluid(const Index* j, Index i) const {
+    return select(same(c.fluid.fluid, j, c.fluid.fluid[i]), Lanes(0), Lanes(1)) > Lanes(0);
   }
 };
 

@@ -6,7 +6,7 @@ namespace {
 
 const Words kernel_names(smoothing_names.begin(), smoothing_names.end());
 const Words weight_names{"lattice", "value", "gradient"};
-const Words tension_names{"auto", "viscous", "limit"};
+const Words tension_names{"viscous", "limit"};
 const Words scheme_names{"slagflow", "paper"};
 const Words operator_names{"radial", "laplacian"};
 const Words explicit_names{"old_velocity", "predicted"};
@@ -112,9 +112,7 @@ void describe_tension(CaseVisitor& v, NumericsSetup& n) {
       key("tension",
           "what fluid bears below zero pressure; viscous: what its viscous stress can ask for, and what "
           "expands beyond that is void, equation (11); limit: tension_limit everywhere, walls too, while "
-          "the density goes on falling, for fluid without a free surface; auto: limit where the fluid has no "
-          "free "
-          "surface at the start, else viscous"),
+          "the density goes on falling, for fluid without a free surface"),
       n.tension, tension_names);
   v.number(
       key("tension_limit",
@@ -151,10 +149,14 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
           "ε of equation (15); auto: 0.1 where a fluid has surface tension or the kernel is lucy, else 0")
           .or_word("auto", -1),
       n.anti_pairing, between(0, 1, ""));
-  v.number(key("shifting",
-               "A of equation (19): keeps sheared particles evenly spread; 0.2 suits confined flows, free "
-               "surfaces take no notice of it"),
-           n.shifting, between(0, 1, ""));
+  v.number(
+      key("shifting",
+          "A of equation (19): keeps the particles of a fluid that is strained for long evenly spread; free "
+          "surfaces, interfaces and the rows next to walls take no part; auto: 1 where the fluid has neither "
+          "a "
+          "free surface at the start nor surface tension and the kernel is not lucy, else 0")
+          .or_word("auto", -1),
+      n.shifting, between(0, 5, ""));
   describe_viscous_step(v, n);
   describe_solver(v, n);
   v.number(key("skin", "of the neighbour list, in support radii: speed only, not the result"), n.skin,

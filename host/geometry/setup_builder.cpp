@@ -90,6 +90,14 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
   }
 }
 
+// Fluid with a free surface does as well without, and surface tension holds its particles in order.
+double automatic_shifting(const Case& c, const Filling& filling) {
+  bool tension = false;
+  for (const FluidSpec& fluid : c.fluids) tension = tension || fluid.surface_tension > 0;
+  const bool spread = tension || c.numerics.kernel == SmoothingKind::lucy || has_free_surface(c, filling);
+  return spread ? 0 : 1;
+}
+
 }  // namespace
 
 BuiltCase build_setup(const Case& c) {
@@ -100,9 +108,7 @@ BuiltCase build_setup(const Case& c) {
   built.sound_speed_terms = sound_speed_terms(c, filling);
   if (!(c.numerics.sound_speed > 0))
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
-  TensionModel& tension = built.resolved.numerics.tension;
-  if (tension == TensionModel::automatic)
-    tension = has_free_surface(c, filling) ? TensionModel::viscous : TensionModel::limit;
+  if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, filling);
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_currents(c, built.warnings);
   const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);

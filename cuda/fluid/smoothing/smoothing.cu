@@ -41,6 +41,7 @@ Smoothing::Smoothing(SmoothingKind which, double h, int dimensions, ViscousWeigh
   of_slope = static_cast<Real>(scale / (h * h));
   const double flat = 4 * Level::integral(3, dimensions) - 3 * Level::integral(4, dimensions);
   of_tension = static_cast<Real>(-24 / (flat * std::pow(h, dimensions + 2)));
+  of_crowding = static_cast<Real>(-36 / (Level::integral(18, dimensions) * std::pow(h, dimensions + 2)));
   of_viscous =
       static_cast<Real>(dimensions / (std::pow(h, dimensions + 4) * fourth_moment(kind, dimensions, weight)));
   softening = static_cast<Real>(1e-6 * h * h);

@@ -45,6 +45,7 @@ struct Smoothing {
   Real of_value = 0;         // sigma / h^d
   Real of_slope = 0;         // sigma / h^(d+2)
   Real of_tension = 0;       // -24 s / h^(d+2), of tension_gradient()
+  Real of_crowding = 0;      // -36 s / h^(d+2), of crowding_gradient()
   Real of_viscous = 0;       // 1 / (h^(d+4) (d + 2) integral of w x^2 y^2), in units of h
   Real softening = 0;        // 1e-6 h^2 [m^2], keeps coincident pairs finite
 
@@ -68,6 +69,12 @@ struct Smoothing {
   HOST_DEVICE T tension_gradient(T r2) const {
     const T q2 = within(r2);
     return of_tension * square(T(1) - q2) * q2;
+  }
+  // F of s t^18, t = 1 - (r/h)^2, whatever the law: little but the nearest neighbours count.
+  template <class T>
+  HOST_DEVICE T crowding_gradient(T r2) const {
+    const T t = T(1) - within(r2), t4 = square(square(t));
+    return of_crowding * square(square(t4)) * t;
   }
   // w >= 0 with (d + 2) times the integral of w x^2 y^2 = 1 [1/m^(d+4)].
   template <class T>
