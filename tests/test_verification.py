@@ -70,6 +70,15 @@ class Verification(unittest.TestCase):
         x = np.linspace(0, closed_forms.huppert_reach(0.99), 200001)
         self.assertAlmostEqual(np.trapz((1 - x**2)**(1 / 3), x) / 0.841309, 0.99, places=4)
 
+    def test_surface_waves_are_lambs_and_creep_when_thick(self):
+        k = 2 * np.pi / 0.1
+        thin = closed_forms.surface_wave(1j * np.sqrt(9.81 * k), k, 10, 1e-8)
+        self.assertAlmostEqual(thin.imag / np.sqrt(9.81 * k), 1, places=6)
+        self.assertAlmostEqual(thin.real / (-2e-8 * k**2), 1, places=2)
+        thick = closed_forms.creeping_wave_rate(k, 0.05, 10)
+        self.assertAlmostEqual(closed_forms.surface_wave(-thick, k, 0.05, 10).real / -thick, 1, places=4)
+        self.assertAlmostEqual(closed_forms.creeping_wave_rate(k, 1, 10) / (9.81 / (20 * k)), 1, places=9)
+
     def test_verdicts_follow_the_targets(self):
         wave = np.sin(np.arange(9.0))
         self.assertTrue(profile_row("", "", 1.01 * wave, wave, 0.0101).passed)

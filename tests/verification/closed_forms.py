@@ -119,3 +119,30 @@ def huppert_reach(fraction):
     x = np.linspace(0, 1, 200001)
     held = np.cumsum((1 - x**2)**(1 / 3))
     return np.interp(fraction * held[-1], held, x)
+
+
+def surface_wave(guess, wave_number, depth, nu):
+    """The s [1/s] nearest to a guess of waves cos(kx) e^(st) of small height on a viscous layer above a floor that it
+    slips along: w = A sinh kz + C sinh mz, m^2 = k^2 + s/nu, without stress on the surface (Lamb, Hydrodynamics,
+    art. 349, with a floor). By the secant method."""
+    k = wave_number
+
+    def stress(s):
+        m = np.sqrt(k**2 + s / nu + 0j)
+        share = -2 * k**2 / (m**2 + k**2)  # C/A at the surface
+        rates = k / np.tanh(k * depth) + share * m / np.tanh(m * depth)
+        return s**2 / (k * np.tanh(k * depth)) + 9.81 * (1 + share) + 2 * nu * s * rates
+
+    s, before = complex(guess), 1.01 * complex(guess)
+    for _ in range(50):
+        here, there = stress(s), stress(before)
+        if here == there:
+            break
+        s, before = s - here * (s - before) / (here - there), s
+    return s
+
+
+def creeping_wave_rate(wave_number, depth, nu):
+    """Rate [1/s] at which such a wave levels without inertia."""
+    kd = wave_number * depth
+    return 9.81 / (2 * nu * wave_number) * np.sinh(kd)**2 / (np.sinh(kd) * np.cosh(kd) + kd)

@@ -136,6 +136,12 @@ class Result:
         """A field of the last snapshot, such as Fluid: the place of each particle's fluid in the case."""
         return self._folder.fluid.field(name, len(self.times) - 1)
 
+    def ordered(self, time):
+        """Positions in the snapshot nearest to a time, in the order of the particles at the start."""
+        step = int(np.argmin(np.abs(self.times - time)))
+        fluid = self._folder.fluid
+        return fluid.positions(step)[np.argsort(fluid.field("ParticleId", step))]
+
     @property
     def summary(self):
         return json.loads((self._folder.path / "summary.json").read_text())
