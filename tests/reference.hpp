@@ -183,7 +183,7 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
   const double density = w.density(p);
   Sum sum;
   // `moved`: what the step has added to d; `balanced`: minus the force per volume by pressure
-  auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced, double share) {
+  auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced, double share, double eta) {
     const Vec half_way = d - 0.5 * moved;
     if (length(half_way) >= w.support) return;
     const double f = slope_over_distance(w, length(half_way));
@@ -191,15 +191,17 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
     sum.add(density * volume * mixed * dot(moved, half_way),
             density * volume * -f * length(moved) * length(d));
     const double smooth = dot(balanced, -1 * half_way) / c2 * share;
-    sum.add(dt * strength * volume * -f * (excess - p.excess - smooth),
-            dt * strength * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
+    const double thin = dt * strength / (1 + eta / (rest * w.sound_speed * w.support));
+    sum.add(thin * volume * -f * (excess - p.excess - smooth),
+            thin * volume * -f * (std::fabs(excess) + std::fabs(p.excess) + std::fabs(smooth)));
   };
   for_fluid_pairs(
       w, i,
       [&](const Particle& j, Vec d) {
         const bool alike = j.fluid == p.fluid;  // else nothing diffuses
         pair(d, j.volume, dt * (p.v - j.v), alike ? j.excess : p.excess,
-             alike ? -0.5 * (p.by_pressure + j.by_pressure) : Vec{}, 1 / gradient_on_lattice(w));
+             alike ? -0.5 * (p.by_pressure + j.by_pressure) : Vec{}, 1 / gradient_on_lattice(w),
+             0.5 * (p.viscosity + j.viscosity));
       },
       reach_before);
   for_wall_pairs(
@@ -207,7 +209,7 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
       [&](const Wall& j, Vec d) {
         const bool cut = j.pressure <= -w.limit(j);  // no diffusion there
         pair(d, w.wall_volume(), dt * p.v - w.moved(j, dt), cut ? p.excess : j.pressure / c2,
-             cut ? Vec{} : rest * (w.gravity - j.acceleration), 1);
+             cut ? Vec{} : rest * (w.gravity - j.acceleration), 1, p.viscosity);
       },
       reach_before);
   return sum;

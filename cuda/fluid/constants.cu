@@ -154,6 +154,7 @@ FlowConstants flow_constants(const SimulationSetup& s) {
   flow.body_acceleration = to_real(s.body_acceleration);
   flow.sound_speed_squared = static_cast<Real>(c0 * c0);
   flow.diffusion = static_cast<Real>(s.numerics.density_diffusion * h * c0);
+  flow.damping_reference = static_cast<Real>(c0 * h);
   flow.viscous_tension = s.numerics.tension != TensionModel::limit;
   flow.flat_tension = s.numerics.kernel != SmoothingKind::lucy;
   flow.tension_limit = static_cast<Real>(s.numerics.tension_limit);

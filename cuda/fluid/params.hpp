@@ -73,6 +73,7 @@ struct FlowConstants {
   Vec3 body_acceleration;        // [m/s^2]
   Real sound_speed_squared = 0;  // [m^2/s^2]
   Real diffusion = 0;            // 2 delta (h/2) c0 [m^2/s]
+  Real damping_reference = 0;    // c0 h [m^2/s], of diffusing_share()
   bool viscous_tension = false;  // what is in tension follows TensionModel::viscous
   bool flat_tension = false;     // its pairs have the function for tension
   Real tension_limit = 0;        // [Pa]

@@ -106,6 +106,7 @@ struct NumericsSetup {
   TensionModel tension = TensionModel::viscous;
   double tension_limit = 1e5;       // [Pa] >= 0, the most that fluid bears: that of the air's pressure
   double anti_pairing = -1;         // epsilon of the term that keeps pairs apart, < 0: anti_pairing(setup)
+  double background_pressure = -1;  // [Pa], in the start pressures already; < 0: not known yet
   double shifting = -1;             // A of the particle shifting (shifting.hpp), <= 0: none
   double viscosity_correction = 0;  // 0: from the kernel and the lattice (lattice_viscosity.hpp)
   ViscousStepping viscous_step = ViscousStepping::implicit_step;

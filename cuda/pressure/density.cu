@@ -20,7 +20,7 @@ struct PairSums {
 struct Centre {
   Vec3 place, velocity;
   Real excess;  // density - rest density
-  Real rest_density;
+  Real rest_density, viscosity;
   Vec3 by_pressure;  // force per volume
   Real in_tension;   // share of the function for tension in its continuity
 };
@@ -37,9 +37,13 @@ struct DensityAndShear {
   HOST_DEVICE void operator()(Index i) const {
     const Quad motion = c.fluid.motion[i];
     const FluidConstants& kind = c.fluids[c.fluid.fluid[i]];
-    const Centre centre{
-        xyz(c.fluid.place[i]),        xyz(motion), motion.w, kind.rest_density, xyz(c.fluid.by_pressure[i]),
-        share_in_tension(i, motion.w)};
+    const Centre centre{xyz(c.fluid.place[i]),
+                        xyz(motion),
+                        motion.w,
+                        kind.rest_density,
+                        c.fluid.state[i].y,
+                        xyz(c.fluid.by_pressure[i]),
+                        share_in_tension(i, motion.w)};
     PairSums sums;
     add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
@@ -68,7 +72,8 @@ struct DensityAndShear {
       sums.approach += volume * continuity_slope(centre, r2) * approach;
       const Lanes smooth = (Real(0.5) * inverse_stiffness * c.flow.inverse_gradient_sum) *
                            dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
-      const Lanes noise = weight * ((other.w - centre.excess) - smooth),
+      const Lanes eta = centre.viscosity + gather(c.fluid.state, j).y;
+      const Lanes noise = diffusing_share(centre, eta) * weight * ((other.w - centre.excess) - smooth),
                   strain = volume * c.flow.smoothing.viscous(r2) * square(approach);
       if (c.fluids.size == 1) {
         sums.diffusion -= noise, sums.shear += strain;
@@ -91,6 +96,12 @@ struct DensityAndShear {
     const Lanes slope = c.flow.smoothing.gradient(r2);
     if (!(centre.in_tension > 0)) return slope;
     return slope + centre.in_tension * (c.flow.smoothing.tension_gradient(r2) - slope);
+  }
+
+  // Of a pair with this sum of viscosities: what sways between thick neighbours their viscosity damps.
+  HOST_DEVICE Lanes diffusing_share(const Centre& centre, Lanes viscosities) const {
+    const Lanes reference = Real(2) * centre.rest_density * c.flow.damping_reference;
+    return reference / (reference + viscosities);
   }
 
   // Share of i of the square of the strain rate of a pair of two fluids.
@@ -129,7 +140,8 @@ struct DensityAndShear {
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure * inverse_stiffness - centre.excess + slope * dot(falls, d);
-      sums.diffusion -= select(pressure > -wall_tension_limits(c, j), weight * difference, Lanes(0));
+      const Lanes noise = diffusing_share(centre, Real(2) * centre.viscosity) * weight * difference;
+      sums.diffusion -= select(pressure > -wall_tension_limits(c, j), noise, Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
       const WallPairGeometry<Lanes, QuadLanes> now{d + half * change, pair.normal, pair.back};
       sums.distance =

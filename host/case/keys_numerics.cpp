@@ -145,6 +145,14 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
            n.density_diffusion, between(0, 1, ""));
   describe_tension(v, n);
   v.number(
+      key("background_pressure",
+          "added to the pressure of all fluid at the start; auto: 2 % of ρc₀², and what the jitter will "
+          "cost, "
+          "where fluid of the pressure zero has no free surface, so that it comes under no tension, which it "
+          "bears less well; else 0")
+          .or_word("auto", -1),
+      n.background_pressure, at_least(0, "Pa"));
+  v.number(
       key("anti_pairing",
           "ε of equation (15); auto: 0.1 where a fluid has surface tension or the kernel is lucy, else 0")
           .or_word("auto", -1),

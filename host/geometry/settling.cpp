@@ -50,6 +50,22 @@ bool has_free_surface(const Case& c, const Filling& filling) {
   return false;
 }
 
+double automatic_background(const Case& c, const Filling& filling) {
+  constexpr double compression =
+      0.02;  // for suction, 0.005 at a tenth of c0, and for strained particles' order
+  for (const double pressure : filling.fluid.pressure)
+    if (pressure != 0) return 0;
+  if (c.numerics.tension == TensionModel::limit || c.numerics.kernel == SmoothingKind::lucy) return 0;
+  if (has_free_surface(c, filling)) return 0;
+  double background = 0;
+  for (const RegionSpec& region : c.regions) {
+    const double density = c.fluids[static_cast<std::size_t>(region.fluid)].density;
+    const double share = compression + settling_loss(c.numerics.kernel, region.jitter);
+    background = larger(background, share * density * square(c.numerics.sound_speed));
+  }
+  return background;
+}
+
 double settling_loss(SmoothingKind kernel, double jitter) {
   return kernel == SmoothingKind::lucy ? 0.2 * jitter * jitter : 0.12 * jitter;
 }

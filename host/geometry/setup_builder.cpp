@@ -109,6 +109,9 @@ BuiltCase build_setup(const Case& c) {
   if (!(c.numerics.sound_speed > 0))
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
   if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, filling);
+  double& background = built.resolved.numerics.background_pressure;
+  if (background < 0) background = automatic_background(built.resolved, filling);
+  for (double& pressure : filling.fluid.pressure) pressure += background;
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_currents(c, built.warnings);
   const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);

@@ -201,7 +201,7 @@ TEST(CaseFile, WrittenCaseHoldsTheDefaults) {
   const std::string written = to_toml(parse_case(minimal, "a.toml"));
   for (const char* line :
        {"support_ratio = 2.6", "sound_speed = \"auto\"", "anti_pairing = \"auto\"", "kernel = \"level\"",
-        "tension = \"auto\"", "viscous_weight = \"lattice\"", "shifting = 0", "interval = 0.04",
+        "tension = \"viscous\"", "viscous_weight = \"lattice\"", "shifting = \"auto\"", "interval = 0.04",
         "fluid = \"oil\"", "periodic = []", "departure = \"remove\"", "skin = 0.06"})
     EXPECT_NE(written.find(line), std::string::npos) << line << "\n" << written;
 }

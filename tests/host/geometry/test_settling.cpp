@@ -61,7 +61,7 @@ TEST(Settling, LosesPressureByTheJitter) {
   const double stiffness = 1000 * 20 * 20;
   for (const auto kernel : {SmoothingKind::level, SmoothingKind::lucy})
     for (const double jitter : {0.2, 0.4}) {
-      Case c = closed_box({"region.0.jitter=" + std::to_string(jitter)});
+      Case c = closed_box({"region.0.jitter=" + std::to_string(jitter), "numerics.shifting=0"});
       c.numerics.kernel = kernel;
       const double lost = (20000 - mean_pressure_after(c, 0.2)) / stiffness;
       const double told = settling_loss(kernel, jitter);
@@ -83,15 +83,35 @@ TEST(Settling, OfAClosedSpaceIsTold) {
     EXPECT_THAT(build_setup(closed_box({harmless})).warnings, Not(told)) << harmless;
 }
 
-// Where air cannot get, nothing is void: the fluid bears what it must, and so do its walls.
-TEST(Settling, AClosedSpaceBearsTension) {
-  const auto tension = [](std::vector<std::string> overrides) {
-    overrides.push_back("numerics.tension=auto");
-    return build_setup(closed_box(overrides)).setup.numerics.tension;
+// Where air cannot get in, fluid of no pressure would come under tension: it starts with some.
+TEST(Settling, AClosedSpaceOfNoPressureGetsABackground) {
+  const auto start = [](std::vector<std::string> overrides) {
+    overrides.insert(overrides.begin(), "numerics.tension=viscous");
+    const BuiltCase built = build_setup(closed_box(overrides));
+    EXPECT_GE(built.resolved.numerics.background_pressure, 0);
+    return built.setup.particles.pressure.front();
   };
-  EXPECT_EQ(tension({}), TensionModel::limit);
-  EXPECT_EQ(tension({"region.0.shapes=[{shape=\"box\", min=[0,-1,0], max=[0.15,1,0.1]}]"}),
-            TensionModel::viscous);
+  const std::string none = "region.0.pressure=zero", smooth = "region.0.jitter=0";
+  const double stiffness = 1000 * 20 * 20;
+  EXPECT_DOUBLE_EQ(start({none, smooth}), 0.02 * stiffness);
+  EXPECT_DOUBLE_EQ(start({none}), (0.02 + settling_loss(SmoothingKind::level, 0.3)) * stiffness);
+  EXPECT_DOUBLE_EQ(start({none, "numerics.background_pressure=7"}), 7);
+  EXPECT_DOUBLE_EQ(start({"region.0.pressure=300", "numerics.background_pressure=7"}), 307);
+  EXPECT_DOUBLE_EQ(start({"region.0.pressure=300"}), 300);
+  EXPECT_DOUBLE_EQ(start({none, "region.0.shapes=[{shape=\"box\", min=[0,-1,0], max=[0.15,1,0.1]}]"}), 0);
+  EXPECT_DOUBLE_EQ(start({none, "numerics.tension=limit"}), 0);
+  EXPECT_DOUBLE_EQ(start({none, "numerics.kernel=lucy"}), 0);
+}
+
+TEST(Settling, ShiftsParticlesOfAClosedSpaceAlone) {
+  const auto shifting = [](std::vector<std::string> overrides) {
+    return build_setup(closed_box(overrides)).setup.numerics.shifting;
+  };
+  EXPECT_EQ(shifting({}), 1);
+  EXPECT_EQ(shifting({"numerics.shifting=0.3"}), 0.3);
+  EXPECT_EQ(shifting({"numerics.kernel=lucy"}), 0);
+  EXPECT_EQ(shifting({"fluid.oil.surface_tension=0.02"}), 0);
+  EXPECT_EQ(shifting({"region.0.shapes=[{shape=\"box\", min=[0,-1,0], max=[0.15,1,0.1]}]"}), 0);
 }
 
 }  // namespace
