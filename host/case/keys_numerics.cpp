@@ -146,7 +146,7 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
   describe_tension(v, n);
   v.number(
       key("background_pressure",
-          "added to the pressure of all fluid at the start; auto: 2 % of ρc₀², and what the jitter will "
+          "added to the pressure of all fluid at the start; auto: 1 % of ρc₀², and what the jitter will "
           "cost, "
           "where fluid of the pressure zero has no free surface, so that it comes under no tension, which it "
           "bears less well; else 0")

@@ -93,8 +93,8 @@ TEST(Settling, AClosedSpaceOfNoPressureGetsABackground) {
   };
   const std::string none = "region.0.pressure=zero", smooth = "region.0.jitter=0";
   const double stiffness = 1000 * 20 * 20;
-  EXPECT_DOUBLE_EQ(start({none, smooth}), 0.02 * stiffness);
-  EXPECT_DOUBLE_EQ(start({none}), (0.02 + settling_loss(SmoothingKind::level, 0.3)) * stiffness);
+  EXPECT_DOUBLE_EQ(start({none, smooth}), 0.01 * stiffness);
+  EXPECT_DOUBLE_EQ(start({none}), (0.01 + settling_loss(SmoothingKind::level, 0.3)) * stiffness);
   EXPECT_DOUBLE_EQ(start({none, "numerics.background_pressure=7"}), 7);
   EXPECT_DOUBLE_EQ(start({"region.0.pressure=300", "numerics.background_pressure=7"}), 307);
   EXPECT_DOUBLE_EQ(start({"region.0.pressure=300"}), 300);
