@@ -4,6 +4,7 @@
 #include "backend/error.hpp"
 #include "fluid/constants.hpp"
 #include "fluid/lattice_viscosity.hpp"
+#include "fluid/yield_rheology.hpp"
 
 namespace slagflow {
 
@@ -71,7 +72,11 @@ double particle_volume(const SimulationSetup& s) { return std::pow(s.spacing, s.
 }  // namespace
 
 bool allows_exact_yield(RheologyKind kind) {
-  return kind != RheologyKind::casson && kind != RheologyKind::biviscous;
+  if (yield_parameter(kind) >= 0) return true;
+  const RheologyInfo& info = rheologies[static_cast<std::size_t>(kind)];
+  for (int k = 0; k < info.parameter_count; ++k)
+    if (info.parameters[k].role == ParameterRole::yield_stress) return false;
+  return true;
 }
 
 std::vector<Conflict> conflicts(const NumericsSetup& n) {

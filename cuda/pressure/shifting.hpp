@@ -16,10 +16,10 @@ struct ShiftStep {
 //   dx_i = -h^2 min(A gamma_i dt, 0.024) S_i sum_j V_j F18_ij x_ij
 // (S. J. Lind et al., J. Comput. Phys. 231 (2012) 1499, with the shear rate for the pace: nothing moves in a
 // plug, or in a rigid motion), F18 that of a function so steep that only the nearest neighbours count
-// (Smoothing::crowding_gradient). S_i is 0 at and next to a free surface, where T_i = sum_j V_j |F_ij| r^2 / d
-// falls below 0.92, and 1 from T_i = 0.97 on, inside T_i is 0.99; 0 within the support of another fluid; and
-// in the row next to a wall, a spacing from its particles, 1 from two spacings on. Velocities stay as they are.
-// `position` [m]: the places of the pairs still lag it.
+// (Smoothing::crowding_gradient). S_i is 0 at and next to a free surface, where T_i = sum_j V_j |F_ij| r^2 /
+// d falls below 0.92, and 1 from T_i = 0.97 on, inside T_i is 0.99; 0 within the support of another fluid;
+// and in the row next to a wall, a spacing from its particles, 1 from two spacings on. Velocities stay as
+// they are. `position` [m]: the places of the pairs still lag it.
 void shift_particles(Context&, const PairContext&, const ShiftStep&, Span<Vec3d> position);
 
 }  // namespace slagflow

@@ -144,12 +144,14 @@ RunStatus Run::loop() {
     if (history_due_.due(time)) record();
     if (snapshot_due_.due(time)) take_snapshot();
     if (time >= built_.resolved.output.last_time()) return RunStatus::done;
-    if (measures_.arrived(built_.resolved.output.stop_after)) return RunStatus::done;
+    const std::string& last = built_.resolved.output.stop_after;
+    if (measures_.arrived(last)) return end_early(last + " has arrived, as output.stop_after asks");
     if (signals_.requested()) {
       log_.warning("interrupted at " + std::to_string(time) + " s");
       return RunStatus::interrupted;
     }
-    if (simulation.particles() == 0) return end_early();
+    // Nothing brings fluid into a domain.
+    if (simulation.particles() == 0) return end_early("all fluid has left the domain and none can come");
     if (checkpoint_due()) try_to_save_checkpoint();
     simulation.step();
     counts_.particle_steps += particles_now_;
@@ -157,9 +159,8 @@ RunStatus Run::loop() {
   }
 }
 
-// Nothing brings fluid into a domain.
-RunStatus Run::end_early() {
-  ended_early_ = "all fluid has left the domain and none can come";
+RunStatus Run::end_early(const std::string& reason) {
+  ended_early_ = reason;
   log_.info(ended_early_ + ": ends at " + std::to_string(simulation_->time()) + " s");
   return RunStatus::done;
 }

@@ -50,7 +50,7 @@ class Run {
   void start();
   void open_outputs();
   RunStatus loop();
-  RunStatus end_early();
+  RunStatus end_early(const std::string& reason);
   void record();
   void take_snapshot();
   bool checkpoint_due();

@@ -7,7 +7,7 @@ from verification.suite import Run, bound_row
 NAME = "sheared_box"
 TITLE = "sheared box, stress beyond viscosity / p"
 WIDTH, HEIGHT, SPEED = 0.016, 0.016, 0.016  # [m], [m], [m/s]
-STROKE = 3.5e-4  # of the plate above jittered particles [m]
+STROKE = 8.6e-5  # of the plate above jittered particles [m]
 
 
 def runs(quick):

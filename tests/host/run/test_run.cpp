@@ -341,6 +341,7 @@ TEST(Run, EndsWhenTheMeasureItWaitsForHasArrived) {
   EXPECT_EQ(run_case(c, options).exit_code(), 0);
   const std::string summary = read_text_file(folder / "run/summary.json");
   EXPECT_THAT(summary, HasSubstr("\"status\": \"done\""));
+  EXPECT_THAT(summary, HasSubstr("\"ended_early\": \"spread has arrived"));
   // The first particles have 0.5 mm to go at 1 m/s; the case would end at 20 ms.
   const std::string key = "\"simulated_time\": ";
   EXPECT_LT(std::stod(summary.substr(summary.find(key) + key.size())), 0.005);
