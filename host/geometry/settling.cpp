@@ -51,8 +51,7 @@ bool has_free_surface(const Case& c, const Filling& filling) {
 }
 
 double automatic_background(const Case& c, const Filling& filling) {
-  constexpr double compression =
-      0.02;  // for suction, 0.005 at a tenth of c0, and for strained particles' order
+  constexpr double compression = 0.01;  // suction takes 0.005 at a tenth of c0
   for (const double pressure : filling.fluid.pressure)
     if (pressure != 0) return 0;
   if (c.numerics.tension == TensionModel::limit || c.numerics.kernel == SmoothingKind::lucy) return 0;

@@ -69,9 +69,7 @@ TEST(WallSlip, TurningCylinder) {
   }
   error = std::sqrt(error / size);
   std::printf("concentric cylinders: error %.2f %%\n", 100 * error);
-  // The target, 3 %, is missed: 5.1 %, most of it the scatter of single particles, which no friction of a
-  // lattice holds back (tests/verification/README.md). The bound keeps the error from growing.
-  EXPECT_LT(error, 0.055);
+  EXPECT_LT(error, 0.03);
 }
 
 }  // namespace

@@ -9,22 +9,6 @@ TITLE = "light fluid on a heavy one, pressure"
 RATIOS = (1.1, 2.7, 10)
 YIELD_STRESS = 5  # [Pa]
 PRESSURE = "pressure, rms error / pressure at the bottom"
-DRIFT = ("where the yield stress holds the particles still, the density diffusion of (10) goes on, and walls carry the "
-         "difference: the error grows with δ, with 1 : 1.1 0.12, 0.14, 0.80 and 1.46 % at δ 0, 0.02, 0.1 and 0.2, with 1 : 2.7 "
-         "0.26, 0.29, 0.68 and 1.10 %, where part of it is the kink at the interface, smoothed over the support")
-HELD = ("the walls can hold 2τH/W = 20 Pa, 1.2 % of the pressure at the bottom, and hold most of it at the interface; 0.85 % "
-        "without density diffusion, 0.57 % in a tank three times as wide")
-LATTICE = ("the sum of V x² W'/r over a cubic lattice, which should be 1 in the pressure force (6), is 0.988 at a support of "
-           "2.6 Δx, so the gradient of the pressure is 1.1 % too steep, as measured; the square lattice has 1.006, hence 0.5 % "
-           "too flat in 2-D")
-MISSES = {
-    f"2-D, 1 : 1.1, Bingham: {PRESSURE}": DRIFT,
-    f"2-D, 1 : 2.7, Bingham: {PRESSURE}": DRIFT,
-    f"2-D, 1 : 10, Bingham: {PRESSURE}": HELD,
-    f"3-D, 1 : 2.7, Newtonian: {PRESSURE}": LATTICE,
-    f"3-D, 1 : 2.7, Bingham: {PRESSURE}": f"{DRIFT}; and {LATTICE}",
-    "slag on metal: rms speed [m/s]": "what the first steps stir up fades slowly in a metal this thin: 1.5e-4 m/s after 2 s, "
-                                      "9e-5 after 4 s; at half the spacing 5e-5 after 1 s"}
 
 
 def settings(ratio, stress, dimensions):

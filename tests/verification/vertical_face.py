@@ -10,9 +10,6 @@ HEIGHT = 0.02  # [m]
 WEIGHT = 1000 * 9.81 * HEIGHT  # [Pa]
 STANDING, FAILING = 0.30, 0.23
 TIME = 0.3  # [s]
-MISSES = {"20 high, τ_B 0.23 ρgH: the face moves in 0.3 s, mean of its height [Δx]":
-          "the face fails, but slowly at this resolution: it has moved 0.43 Δx after 1 s, where the standing one has crept "
-          "0.04 Δx; at twice the resolution it is in bounds"}
 
 
 def runs(quick):
