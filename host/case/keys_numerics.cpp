@@ -119,6 +119,29 @@ void describe_tension(CaseVisitor& v, NumericsSetup& n) {
           "p_t of equation (11): the most tension that the fluid bears, the air's pressure; for less at a "
           "wall see wall"),
       n.tension_limit, at_least(0, "Pa"));
+  v.number(
+      key("background_pressure",
+          "added to the pressure of all fluid at the start; auto: 1 % of ρc₀², and what the jitter will "
+          "cost, where fluid of the pressure zero has no free surface, so that it comes under no tension, "
+          "which it bears less well; else 0")
+          .or_word("auto", -1),
+      n.background_pressure, at_least(0, "Pa"));
+}
+
+// What keeps particles evenly spread.
+void describe_order(CaseVisitor& v, NumericsSetup& n) {
+  v.number(
+      key("anti_pairing",
+          "ε of equation (15); auto: 0.1 where a fluid has surface tension or the kernel is lucy, else 0")
+          .or_word("auto", -1),
+      n.anti_pairing, between(0, 1, ""));
+  v.number(
+      key("shifting",
+          "A of equation (19): keeps the particles of a fluid that is strained for long evenly spread; free "
+          "surfaces, interfaces and the rows next to walls take no part; auto: 1 where the fluid has neither "
+          "a free surface at the start nor surface tension and the kernel is not lucy, else 0")
+          .or_word("auto", -1),
+      n.shifting, between(0, 5, ""));
 }
 
 }  // namespace
@@ -144,27 +167,7 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
                .by_default("0.1; 0.01 where a fluid has surface tension"),
            n.density_diffusion, between(0, 1, ""));
   describe_tension(v, n);
-  v.number(
-      key("background_pressure",
-          "added to the pressure of all fluid at the start; auto: 1 % of ρc₀², and what the jitter will "
-          "cost, "
-          "where fluid of the pressure zero has no free surface, so that it comes under no tension, which it "
-          "bears less well; else 0")
-          .or_word("auto", -1),
-      n.background_pressure, at_least(0, "Pa"));
-  v.number(
-      key("anti_pairing",
-          "ε of equation (15); auto: 0.1 where a fluid has surface tension or the kernel is lucy, else 0")
-          .or_word("auto", -1),
-      n.anti_pairing, between(0, 1, ""));
-  v.number(
-      key("shifting",
-          "A of equation (19): keeps the particles of a fluid that is strained for long evenly spread; free "
-          "surfaces, interfaces and the rows next to walls take no part; auto: 1 where the fluid has neither "
-          "a "
-          "free surface at the start nor surface tension and the kernel is not lucy, else 0")
-          .or_word("auto", -1),
-      n.shifting, between(0, 5, ""));
+  describe_order(v, n);
   describe_viscous_step(v, n);
   describe_solver(v, n);
   v.number(key("skin", "of the neighbour list, in support radii: speed only, not the result"), n.skin,

@@ -50,17 +50,18 @@ bool has_free_surface(const Case& c, const Filling& filling) {
   return false;
 }
 
-double automatic_background(const Case& c, const Filling& filling) {
+double automatic_background(const Case& resolved, const Filling& filling) {
   constexpr double compression = 0.01;  // suction takes 0.005 at a tenth of c0
   for (const double pressure : filling.fluid.pressure)
     if (pressure != 0) return 0;
-  if (c.numerics.tension == TensionModel::limit || c.numerics.kernel == SmoothingKind::lucy) return 0;
-  if (has_free_surface(c, filling)) return 0;
+  if (resolved.numerics.tension == TensionModel::limit || resolved.numerics.kernel == SmoothingKind::lucy)
+    return 0;
+  if (has_free_surface(resolved, filling)) return 0;
   double background = 0;
-  for (const RegionSpec& region : c.regions) {
-    const double density = c.fluids[static_cast<std::size_t>(region.fluid)].density;
-    const double share = compression + settling_loss(c.numerics.kernel, region.jitter);
-    background = larger(background, share * density * square(c.numerics.sound_speed));
+  for (const RegionSpec& region : resolved.regions) {
+    const double density = resolved.fluids[static_cast<std::size_t>(region.fluid)].density;
+    const double share = compression + settling_loss(resolved.numerics.kernel, region.jitter);
+    background = larger(background, share * density * square(resolved.numerics.sound_speed));
   }
   return background;
 }
