@@ -72,8 +72,9 @@ struct DensityAndShear {
       sums.approach += volume * continuity_slope(centre, r2) * approach;
       const Lanes smooth = (Real(0.5) * inverse_stiffness * c.flow.inverse_gradient_sum) *
                            dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
-      const Lanes eta = centre.viscosity + gather(c.fluid.state, j).y;
-      const Lanes noise = diffusing_share(centre, eta) * weight * ((other.w - centre.excess) - smooth),
+      const Lanes viscosity = gather(c.fluid.state, j).y;
+      const Lanes noise = diffusing_share(centre, centre.viscosity + viscosity) * weight *
+                          ((other.w - centre.excess) - smooth),
                   strain = volume * c.flow.smoothing.viscous(r2) * square(approach);
       if (c.fluids.size == 1) {
         sums.diffusion -= noise, sums.shear += strain;
@@ -81,7 +82,7 @@ struct DensityAndShear {
       }
       const LaneMask alike = same(c.fluid.fluid, j, c.fluid.fluid[i]);
       sums.diffusion -= select(alike, noise, Lanes(0));
-      sums.shear += select(alike, Lanes(1), own_side(i, j)) * strain;
+      sums.shear += select(alike, Lanes(1), own_side(centre.viscosity, viscosity)) * strain;
     }
   }
 
@@ -105,8 +106,7 @@ struct DensityAndShear {
   }
 
   // Share of i of the square of the strain rate of a pair of two fluids.
-  HOST_DEVICE Lanes own_side(Index i, const Index* j) const {
-    const Lanes own = c.fluid.state[i].y, other = gather(c.fluid.state, j).y;
+  HOST_DEVICE static Lanes own_side(Lanes own, Lanes other) {
     return square(Real(2) * other / (own + other));
   }
 

@@ -51,12 +51,9 @@ struct Shift {
       if (walls)
         sum.nearest = smaller(sum.nearest, select(near, r2, sum.nearest));
       else if (c.fluids.size > 1)
-        sum.nearest = select(near & other_fluid(j, i), Lanes(0), sum.nearest);
+        sum.nearest = select(same(c.fluid.fluid, j, c.fluid.fluid[i]), sum.nearest,
+                             select(near, Lanes(0), sum.nearest));
     }
-  }
-
-  HOST_DEVICE LaneMask other_fluid(const Index* j, Index i) const {
-    return select(same(c.fluid.fluid, j, c.fluid.fluid[i]), Lanes(0), Lanes(1)) > Lanes(0);
   }
 };
 

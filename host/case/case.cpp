@@ -68,6 +68,12 @@ Direction down(const Case& c) {
   return {axis, g[axis] > 0 ? 1 : -1};
 }
 
+bool has_surface_tension(const Case& c) {
+  for (const FluidSpec& fluid : c.fluids)
+    if (fluid.surface_tension > 0) return true;
+  return false;
+}
+
 std::string Case::place_of(const std::string& key) const {
   for (std::string part = key; !part.empty();) {
     const auto found = places.find(part);

@@ -156,6 +156,9 @@ struct Case {
 // Axis and sign of the largest component of gravity.
 Direction down(const Case& c);
 
+// Whether some fluid has a surface tension.
+bool has_surface_tension(const Case& c);
+
 // Reads and validates a case file. Each override is "dotted.key=value"; its value is TOML or else a bare
 // string, and list entries are addressed by their index, as in "region.0.velocity=[1,0,0]".
 // Throws InputError with one line for each thing that is wrong.

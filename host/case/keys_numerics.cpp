@@ -101,12 +101,6 @@ void describe_solver(CaseVisitor& v, NumericsSetup& n) {
   v.number(key("relaxation", "ω of sor"), n.relaxation, inside(0, 2, ""));
 }
 
-bool has_surface_tension(const Case& c) {
-  for (const FluidSpec& fluid : c.fluids)
-    if (fluid.surface_tension > 0) return true;
-  return false;
-}
-
 void describe_tension(CaseVisitor& v, NumericsSetup& n) {
   v.choice(
       key("tension",

@@ -42,8 +42,7 @@ void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
           "particles start evenly spread within this distance of their lattice site along each axis, the "
           "same in every run. They settle, and the fluid loses 0.12 jitter of its density (lucy: 0.2 "
           "jitter²): a closed space as much of ρc₀² in pressure, with a warning; under a free surface it "
-          "sinks "
-          "by that share"),
+          "sinks by that share"),
       region.jitter, between(0, 0.5, "spacings"));
 }
 

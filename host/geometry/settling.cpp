@@ -50,13 +50,13 @@ bool has_free_surface(const Case& c, const Filling& filling) {
   return false;
 }
 
-double automatic_background(const Case& resolved, const Filling& filling) {
+double automatic_background(const Case& resolved, const Filling& filling, bool closed) {
   constexpr double compression = 0.01;  // suction takes 0.005 at a tenth of c0
+  if (!closed) return 0;
   for (const double pressure : filling.fluid.pressure)
     if (pressure != 0) return 0;
   if (resolved.numerics.tension == TensionModel::limit || resolved.numerics.kernel == SmoothingKind::lucy)
     return 0;
-  if (has_free_surface(resolved, filling)) return 0;
   double background = 0;
   for (const RegionSpec& region : resolved.regions) {
     const double density = resolved.fluids[static_cast<std::size_t>(region.fluid)].density;

@@ -18,10 +18,10 @@ bool has_free_surface(const Case&, const Filling&);
 // level, in 2-D, 0.024 and 0.050 at jitter 0.2 and 0.4.
 double settling_loss(SmoothingKind, double jitter);
 
-// [Pa] that fluid without a free surface should start with if it starts with none; 0 for what bears tension
-// everywhere, and for Lucy's function, whose lattice resists shear under pressure. resolved: with its sound
-// speed.
-double automatic_background(const Case& resolved, const Filling&);
+// [Pa] that fluid should start with if it is closed, without a free surface, and starts with none; 0 for what
+// bears tension everywhere, and for Lucy's function, whose lattice resists shear under pressure. resolved:
+// with its sound speed.
+double automatic_background(const Case& resolved, const Filling&, bool closed);
 
 // Warns of each region with jitter whose fluid has no free surface and loses more than a tenth of its
 // pressure by that, and says with which pressure to start: under a free surface the fluid sinks by that share

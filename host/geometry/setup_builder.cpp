@@ -91,11 +91,8 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
 }
 
 // Fluid with a free surface does as well without, and surface tension holds its particles in order.
-double automatic_shifting(const Case& c, const Filling& filling) {
-  bool tension = false;
-  for (const FluidSpec& fluid : c.fluids) tension = tension || fluid.surface_tension > 0;
-  const bool spread = tension || c.numerics.kernel == SmoothingKind::lucy || has_free_surface(c, filling);
-  return spread ? 0 : 1;
+double automatic_shifting(const Case& c, bool closed) {
+  return closed && !has_surface_tension(c) && c.numerics.kernel != SmoothingKind::lucy ? 1 : 0;
 }
 
 }  // namespace
@@ -108,9 +105,10 @@ BuiltCase build_setup(const Case& c) {
   built.sound_speed_terms = sound_speed_terms(c, filling);
   if (!(c.numerics.sound_speed > 0))
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
-  if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, filling);
+  const bool closed = !has_free_surface(c, filling);
+  if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, closed);
   double& background = built.resolved.numerics.background_pressure;
-  if (background < 0) background = automatic_background(built.resolved, filling);
+  if (background < 0) background = automatic_background(built.resolved, filling, closed);
   for (double& pressure : filling.fluid.pressure) pressure += background;
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_currents(c, built.warnings);
