@@ -70,9 +70,14 @@ struct World {
   std::vector<Fluid> fluids;
   std::vector<Particle> particles;
   std::vector<Wall> walls;
+  double way = 0;           // [s] that fluid moves with its velocities: viscous forces act half-way along
   bool walls_move = false;  // else what they have moved is that of their surfaces
 
   Vec moved(const Wall& wall, double dt) const { return walls_move ? wall.moved : dt * wall.v; }
+  // The direction of the viscous force of two particles at x_ij = d.
+  Vec half_way(const Particle& p, const Particle& other, Vec d) const {
+    return d + way / 2 * (p.v - other.v);
+  }
   const Fluid& kind(const Particle& p) const { return fluids[static_cast<std::size_t>(p.fluid)]; }
   double density(const Particle& p) const { return kind(p).rest_density + p.excess; }
   double limit(const Wall& wall) const {

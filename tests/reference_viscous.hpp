@@ -81,8 +81,9 @@ inline ViscousOperator viscous_operator(const World& w) {
         const double mean =
             p.fluid == o.fluid ? (p.viscosity + o.viscosity) / 2 : 2 / (1 / p.viscosity + 1 / o.viscosity);
         const double s = weight(mean, p.volume * o.volume, d);
-        add_block(result.matrix, i, i, s, d);
-        add_block(result.matrix, i, j, -s, d);
+        const Vec along = w.half_way(p, o, d);
+        add_block(result.matrix, i, i, s, along);
+        add_block(result.matrix, i, j, -s, along);
       });
     }
     for_wall_pairs(w, i, [&](const Wall& o, Vec d) {

@@ -65,7 +65,7 @@ inline std::vector<StrainRow> strain_rows(const World& w, const Slips& slips, st
       for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) {
         const double g = root(d, w.particles[j].volume);
         const auto [at, sign] = slips.of(i, j, d);
-        rows.push_back({i, j, g * d, 0, at, sign * g});
+        rows.push_back({i, j, g * w.half_way(w.particles[i], w.particles[j], d), 0, at, sign * g});
       });
   for_wall_pairs(w, i, [&](const Wall& wall, Vec d) {
     if (!wall.sticks) return;

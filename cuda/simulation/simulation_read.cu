@@ -62,7 +62,7 @@ void Simulation::State::measure_stress(Span<Real> result) {
   else if (exact_yield())
     viscous.exact_yield().measure_stress(pairs(), fluid.shear_rate.span(), result);
   else
-    measure_shear_stress(context, pairs(), result);
+    measure_shear_stress(context, pairs(), static_cast<Real>(last_dt), result);
 }
 
 }  // namespace slagflow

@@ -17,7 +17,7 @@ double Simulation::State::kick() {
 ViscousStep::Step Simulation::State::viscous_step() {
   double lightest = 1e300;
   for (const auto& f : fluid_constants(setup)) lightest = smaller(lightest, static_cast<double>(f.mass));
-  return {velocity_step(), kick(), lightest};
+  return {velocity_step(), kick(), lightest, dt};
 }
 
 RowCells Simulation::State::row_cells() const {

@@ -29,10 +29,10 @@ struct PairLoop {
   PairContext c;
   Box box;
 
-  // visit(at, j, root of the volumes V_j, d, root)
+  // visit(at, j, V_j, direction of the viscous force, root)
   template <class Visit>
   HOST_DEVICE void over_fluid(Index i, Visit visit) const {
-    const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
+    const LaneVec3 x = in_lanes(xyz(c.fluid.place[i])), middle = in_lanes(xyz(c.fluid.middle[i]));
     const Offset first = c.fluid_list.row(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -43,7 +43,8 @@ struct PairLoop {
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       const Lanes weight = c.flow.shear_factor * c.flow.smoothing.viscous(r2);
-      visit(at, j, there.w, d, select(near, root(weight), Lanes(0)));
+      visit(at, j, there.w, box.separation(middle, xyz(gather(c.fluid.middle, j))),
+            select(near, root(weight), Lanes(0)));
     }
   }
 

@@ -2,7 +2,7 @@
 //   (A u)_i = m_i u_i + B_i u_i + sum_j w_ij d_ij (d_ij . (u_i - u_j))  or, isotropic, w_ij |d_ij|^2 (u_i -
 //   u_j)
 // with w_ij = w_ji >= 0 and d_ij = -d_ji, hence A symmetric and positive definite: A >= m. Of a pair only the
-// weight is stored; d_ij comes from the places, which a processor's cache has at hand.
+// weight is stored; d_ij comes from places, which a processor's cache has at hand.
 #pragma once
 
 #include "backend/buffer.hpp"
@@ -16,7 +16,7 @@ struct LinearSystem {
   Index size = 0;
   ListView links;                    // the particles that row i may be linked to
   Span<const Real> weight;           // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
-  Span<const Quad> place;            // xyz: [m]
+  Span<const Quad> middle;           // xyz: [m] whose differences are d_ij
   Span<const Quad> diagonal;         // xyz: diagonal of A [kg], w: mass [kg]
   Span<const Symmetric3> wall;       // B_i [kg]
   Span<const Quad> right_hand_side;  // [kg m/s]
@@ -32,14 +32,14 @@ struct LinearSystem {
   // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
   template <class Box, class Visit>
   HOST_DEVICE void for_links(const Box& space, Index i, Visit visit) const {
-    const LaneVec3 centre = in_lanes(xyz(place[i]));
+    const LaneVec3 centre = in_lanes(xyz(middle[i]));
     const Offset first = links.row(i);
     const Index n = links.length[i];
     for (Index k = 0; k < n; k += lane_count) {
       const Offset at = first + k * ListView::stride();
       const Lanes w = load_lanes(&weight[at]);
       const Index* j = &links.entry[at];
-      visit(j, w, space.separation(centre, xyz(gather(place, j))));
+      visit(j, w, space.separation(centre, xyz(gather(middle, j))));
     }
   }
 

@@ -10,6 +10,7 @@ template <class Box>
 struct ShearStress {
   PairContext c;
   Box box;
+  Real half_way;  // [s]
   Span<Real> result;
 
   // Adds f x^T, made symmetric, of a pair whose force is f per volume of i.
@@ -50,7 +51,8 @@ struct ShearStress {
       const QuadLanes other = gather(c.fluid.state, j);
       const Lanes mean = pair_viscosity(c, i, Lanes(own), other.y, j);
       const Lanes weight = select(near, c.flow.smoothing.viscous(r2), Lanes(0));
-      add(factor * other.z * weight * mean, d, v - xyz(gather(c.fluid.motion, j)), sum);
+      const LaneVec3 slip = v - xyz(gather(c.fluid.motion, j));
+      add(factor * other.z * weight * mean, d - Lanes(half_way) * slip, slip, sum);
     }
   }
 
@@ -76,9 +78,9 @@ struct ShearStress {
 
 }  // namespace
 
-void measure_shear_stress(Context& context, const PairContext& c, Span<Real> result) {
+void measure_shear_stress(Context& context, const PairContext& c, Real way, Span<Real> result) {
   auto sweep = [&](auto box) {
-    launch(context, "shear stress", c.fluid.count, ShearStress<decltype(box)>{c, box, result});
+    launch(context, "shear stress", c.fluid.count, ShearStress<decltype(box)>{c, box, way / 2, result});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }

@@ -52,6 +52,15 @@ struct Declare {
   HOST_DEVICE void operator()(Index) const { state->converged = solved ? 1 : 0, state->running = 0; }
 };
 
+struct Middle {
+  Span<const Quad> place, motion;
+  Real half_way;  // [s]
+  Span<Quad> middle;
+  HOST_DEVICE void operator()(Index i) const {
+    middle[i] = quad(xyz(place[i]) + half_way * xyz(motion[i]), 0);
+  }
+};
+
 struct AddIncrement {
   Span<const Quad> predicted, increment;
   Span<Quad> velocity;
@@ -126,6 +135,7 @@ struct AddAndGuess {
 ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
     : context_(c),
       numerics_(numerics),
+      middle_(c, "middles of the ways"),
       base_(c, "base of the right hand side"),
       predicted_(c, "predicted velocities"),
       velocity_(c, "solved velocities"),
@@ -139,14 +149,14 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
 
 void ViscousStep::reserve(Index count, Offset pair_capacity, const RowCells& rows) {
   constexpr Offset margin_percent = 1;
-  predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count), right_hand_side_.resize(count);
-  wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
+  middle_.resize(count), predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count);
+  right_hand_side_.resize(count), wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
   work_.resize(count);
   if (device_loop() && needs_levels_) multigrid_.prepare(rows, count);
 }
 
 LinearSystem ViscousStep::system(const PairContext& c) const {
-  return {c.fluid.count,    c.fluid_list, weight_.span(),          c.fluid.place,
+  return {c.fluid.count,    c.fluid_list, weight_.span(),          c.fluid.middle,
           diagonal_.span(), wall_.span(), right_hand_side_.span(), c.box,
           c.flow.coupling};
 }
@@ -162,6 +172,7 @@ void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const St
                         FluidArrays& fluid) {
   const Index n = fluid.count;
   constexpr double largest_factor = 1.5;  // of the augmentations, between steps
+  find_middle(step, fluid);
   if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step, largest_factor));
   const PairContext c = as_solved(whole);
   const auto theta = static_cast<Real>(assembled_share());
@@ -182,6 +193,11 @@ void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const St
     begin_solve(matrix, rows, step, fluid.increment);
   }
   launch(context_, "add increment", n, if_converged(work_.state(), end_solve(fluid)));
+}
+
+void ViscousStep::find_middle(const Step& step, const FluidArrays& fluid) {
+  launch(context_, "middles of the ways", fluid.count,
+         Middle{fluid.place.span(), fluid.motion.span(), static_cast<Real>(0.5 * step.way), middle_.span()});
 }
 
 void ViscousStep::assemble(const PairContext& c, const Step& step, FluidArrays& fluid) {
@@ -240,7 +256,9 @@ Span<const Quad> ViscousStep::explicit_velocity(const FluidArrays& fluid) const 
 }
 
 PairContext ViscousStep::as_solved(const PairContext& c) const {
-  return exact_yield_stress() ? yield_.augmented(c) : c;
+  PairContext solved = exact_yield_stress() ? yield_.augmented(c) : c;
+  solved.fluid.middle = middle_.span();
+  return solved;
 }
 
 WallYield ViscousStep::wall_yield() const { return exact_yield_stress() ? yield_.walls() : WallYield{}; }

@@ -2,6 +2,9 @@
 //   m u_i + theta dt K u = m u*_i - (1 - theta) dt K v,  K the pair operator (predictor.hpp), v the old
 //   velocity
 // or, as the paper prints it, u*
+// The weights of K are those of the particles' distances at the start of the step, its directions those
+// half-way along it, x + v dt/2: what turns as a rigid body moves along chords, which are at right angles to
+// them.
 #pragma once
 
 #include "fluid/setup.hpp"
@@ -19,11 +22,13 @@ class ViscousStep {
   ViscousStep(Context&, const NumericsSetup&);
 
   // Predictor, assembly and solve. `kick`: velocity scale of the stop test [m/s] (one gravity kick g dt, or
-  // what stands for it); `mass`: the smallest particle mass [kg].
-  // Returns with velocity() = u^{k+1}; fluid.increment is read as the first guess and set to that of the next
-  // step: what this one added and half of how that has changed. (All of the change makes noise grow.)
+  // what stands for it); `mass`: the smallest particle mass [kg]; `way`: how long the particles then move
+  // with the velocities [s]. Returns with velocity() = u^{k+1}; fluid.increment is read as the first guess
+  // and set to that of the next step: what this one added and half of how that has changed. (All of the
+  // change makes noise grow.)
   struct Step {
     double dt, kick, mass;
+    double way = 0;
   };
   SolveResult advance(const PairContext&, const RowCells&, const Step&, Offset pair_capacity, FluidArrays&);
 
@@ -59,7 +64,7 @@ class ViscousStep {
   // fluid moves on.
   double implicit_share() const;
   Span<const Quad> explicit_velocity(const FluidArrays&) const;
-  // The pairs with the viscosities that the step took, and its stresses on walls besides.
+  // The pairs with the directions and viscosities that the step took, and its stresses on walls besides.
   PairContext as_solved(const PairContext&) const;
   WallYield wall_yield() const;
 
@@ -71,6 +76,7 @@ class ViscousStep {
   double assembled_share() const { return is_explicit() ? 1 : numerics_.theta; }
   LinearSystem system(const PairContext&) const;
   double wanted_residual(const Step&, Index count) const;
+  void find_middle(const Step&, const FluidArrays&);
   void assemble(const PairContext&, const Step&, FluidArrays&);
   int most_by_diagonal(int patience) const;
   void begin_solve(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
@@ -98,7 +104,7 @@ class ViscousStep {
 
   Context& context_;
   NumericsSetup numerics_;
-  Buffer<Quad> base_, predicted_, velocity_, diagonal_, right_hand_side_;
+  Buffer<Quad> middle_, base_, predicted_, velocity_, diagonal_, right_hand_side_;
   Buffer<Symmetric3> wall_;
   Buffer<Real> weight_;
   SolverWorkspace work_;

@@ -1,6 +1,7 @@
 // The linear system of a scene, on the host.
 #pragma once
 
+#include "fluid/motion.hpp"
 #include "reference_viscous.hpp"
 #include "scene.hpp"
 #include "viscosity/linear_system.hpp"
@@ -8,26 +9,47 @@
 
 namespace slagflow::testing_tools {
 
+// Velocities with which the particles turn by spin dt as a rigid body, along chords, and go on besides.
+inline void spin_along_chords(reference::World& world, Vec3d spin, double dt) {
+  const Rotation turn = rotation(dt * spin);
+  for (auto& p : world.particles) {
+    const Vec3d x{p.x.x, p.x.y, p.x.z}, chord = (1 / dt) * (turn * x - x);
+    p.v = reference::Vec{0.3, 0, -0.2} + reference::Vec{chord.x, chord.y, chord.z};
+  }
+}
+
 // The system on the device, in the device's order of particles.
 struct DeviceSystem {
   explicit DeviceSystem(Scene& s)
-      : predicted(s.context, "predicted", s.fluid.count),
+      : middle(s.context, "middle", s.fluid.count),
+        predicted(s.context, "predicted", s.fluid.count),
         by_pressure(s.context, "by pressure", s.fluid.count),
         diagonal(s.context, "diagonal", s.fluid.count),
         right_hand_side(s.context, "right hand side", s.fluid.count),
         wall(s.context, "walls", s.fluid.count),
-        weight(s.context, "weights", s.fluid_list.capacity()) {}
+        weight(s.context, "weights", s.fluid_list.capacity()) {
+    std::vector<Quad> x = download(s.context, s.fluid.place.span());
+    const std::vector<Quad> v = download(s.context, s.fluid.motion.span());
+    const auto half_way = static_cast<Real>(s.world.way / 2);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = quad(xyz(x[i]) + half_way * xyz(v[i]), 0);
+    middle.upload(x);
+  }
 
+  PairContext pairs(const Scene& s) const {
+    PairContext c = s.pairs();
+    c.fluid.middle = middle.span();
+    return c;
+  }
   PredictorOutput output() {
     return {predicted.span(), by_pressure.span(), weight.span(),
             diagonal.span(),  wall.span(),        right_hand_side.span()};
   }
   LinearSystem system(const Scene& s) const {
-    return {s.fluid.count, s.fluid_list.view(),    weight.span(), view(s.fluid).place, diagonal.span(),
+    return {s.fluid.count, s.fluid_list.view(),    weight.span(), middle.span(),  diagonal.span(),
             wall.span(),   right_hand_side.span(), s.box,         s.flow.coupling};
   }
 
-  Buffer<Quad> predicted, by_pressure, diagonal, right_hand_side;
+  Buffer<Quad> middle, predicted, by_pressure, diagonal, right_hand_side;
   Buffer<Symmetric3> wall;
   Buffer<Real> weight;
 };
@@ -45,7 +67,7 @@ class HostSystem {
         length_(download(s.context, s.fluid_list.view().length)),
         entry_(download(s.context, s.fluid_list.view().entry)),
         weight_(download(s.context, d.weight.span())),
-        position_(download(s.context, s.fluid.place.span())),
+        middle_(download(s.context, d.middle.span())),
         wall_(download(s.context, d.wall.span())),
         device_diagonal_(download(s.context, d.diagonal.span())),
         place_(id_.size()),
@@ -77,7 +99,7 @@ class HostSystem {
         const Offset at = s.links.row(number) + k * ListView::stride();
         const auto other = static_cast<std::size_t>(s.links.entry[at]);
         const auto j = static_cast<std::size_t>(id_[other]);
-        const Vec3 d = box_.separation(xyz(position_[row]), xyz(position_[other]));
+        const Vec3 d = box_.separation(xyz(middle_[row]), xyz(middle_[other]));
         const reference::Vec root = std::sqrt(static_cast<double>(s.weight[at])) * to_host(quad(d, 0));
         reference::add_block(a, i, i, 1, root);
         reference::add_block(a, i, j, -1, root);
@@ -97,7 +119,7 @@ class HostSystem {
     return {static_cast<Index>(id_.size()),
             {host_span(slice_), host_span(length_), host_span(entry_)},
             host_span(weight_),
-            host_span(position_),
+            host_span(middle_),
             host_span(device_diagonal_),
             host_span(wall_),
             {},
@@ -108,7 +130,7 @@ class HostSystem {
   std::vector<Offset> slice_;
   std::vector<Index> length_, entry_;
   std::vector<Real> weight_;
-  std::vector<Quad> position_;
+  std::vector<Quad> middle_;
   std::vector<Symmetric3> wall_;
   std::vector<Quad> device_diagonal_;
   std::vector<std::size_t> place_;
@@ -118,7 +140,7 @@ class HostSystem {
 inline HostSystem assemble(Scene& scene, double dt, double theta) {
   scene.upload();
   DeviceSystem system(scene);
-  predict_and_assemble(scene.context, scene.pairs(), system.output(), static_cast<Real>(dt),
+  predict_and_assemble(scene.context, system.pairs(scene), system.output(), static_cast<Real>(dt),
                        static_cast<Real>(theta));
   return {scene, system};
 }

@@ -14,7 +14,7 @@ constexpr double rounding = 40 * epsilon;  // about 100 terms, each of some ten 
 
 class Predictor : public testing::TestWithParam<SceneOptions> {
  protected:
-  Predictor() : scene_(GetParam()) {}
+  Predictor() : scene_(GetParam()) { scene_.world.way = dt; }
 
   // Against the oracle's.
   void expect_velocities(const HostSystem& system) const {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/scene.hpp"
+#include "core/viscous_scene.hpp"
 #include "viscosity/shear_stress.hpp"
 
 namespace slagflow {
@@ -21,10 +21,11 @@ Stress oracle(const reference::World& w, std::size_t i) {
   const reference::Particle& p = w.particles[i];
   std::array<std::array<double, 3>, 3> sigma{};
   Stress result;
-  auto pair = [&](reference::Vec d, double eta, double volume, reference::Vec velocity) {
+  auto pair = [&](reference::Vec apart, reference::Vec d, double eta, double volume,
+                  reference::Vec velocity) {
     const double r2 = dot(d, d);
-    const double weight =
-        w.correction * (w.dimensions + 2) * eta * volume * reference::viscous_weight(w, reference::length(d));
+    const double weight = w.correction * (w.dimensions + 2) * eta * volume *
+                          reference::viscous_weight(w, reference::length(apart));
     const double force = weight * dot(p.v - velocity, d);
     const std::array<double, 3> x{d.x, d.y, d.z};
     for (std::size_t a = 0; a < 3; ++a)
@@ -34,10 +35,10 @@ Stress oracle(const reference::World& w, std::size_t i) {
   reference::for_fluid_pairs(w, i, [&](const reference::Particle& j, reference::Vec d) {
     const double mean =
         p.fluid == j.fluid ? (p.viscosity + j.viscosity) / 2 : 2 / (1 / p.viscosity + 1 / j.viscosity);
-    pair(d, mean, j.volume, j.v);
+    pair(d, w.half_way(p, j, d), mean, j.volume, j.v);
   });
   reference::for_wall_pairs(w, i, [&](const reference::Wall& j, reference::Vec d) {
-    if (j.sticks) pair(d, p.viscosity, reference::no_slip_factor(w, j, d) * w.wall_volume(), j.v);
+    if (j.sticks) pair(d, d, p.viscosity, reference::no_slip_factor(w, j, d) * w.wall_volume(), j.v);
   });
   const double mean = (sigma[0][0] + sigma[1][1] + sigma[2][2]) / w.dimensions;
   double squares = 0;
@@ -48,10 +49,12 @@ Stress oracle(const reference::World& w, std::size_t i) {
   return result;
 }
 
+constexpr double way = 2e-3;  // [s] that the particles have come
+
 std::vector<Real> stresses(Scene& scene) {
   scene.upload();
   Buffer<Real> stress(scene.context, "stress", scene.fluid.count);
-  measure_shear_stress(scene.context, scene.pairs(), stress.span());
+  measure_shear_stress(scene.context, scene.pairs(), static_cast<Real>(-scene.world.way), stress.span());
   return scene.by_id(Span<const Real>(stress.span()));
 }
 
@@ -59,6 +62,7 @@ class ShearStress : public testing::TestWithParam<SceneOptions> {};
 
 TEST_P(ShearStress, MatchesOracle) {
   Scene scene(GetParam());
+  scene.world.way = -way;
   for (auto& wall : scene.world.walls) wall.v = {0.2, 0, -0.1};
   const std::vector<Real> stress = stresses(scene);
   for (std::size_t i = 0; i < stress.size(); ++i) {
@@ -74,11 +78,10 @@ TEST_P(ShearStress, IsZeroInARigidMotion) {
   scene.world.walls.clear();
   scene.world.period = {};  // a rotation does not fit into a periodic box
   scene.box = {};
-  const reference::Vec spin =
-      scene.world.dimensions == 3 ? reference::Vec{2, -3, 4} : reference::Vec{0, 5, 0};
-  for (auto& p : scene.world.particles)
-    p.v = reference::Vec{0.3, 0, -0.2} + reference::cross(spin, p.x), p.viscosity = 1;
-  for (const Real value : stresses(scene)) EXPECT_LT(static_cast<double>(value), 1000 * epsilon);
+  scene.world.way = -way;
+  spin_along_chords(scene.world, scene.world.dimensions == 3 ? Vec3d{20, -30, 40} : Vec3d{0, 50, 0}, -way);
+  for (auto& p : scene.world.particles) p.viscosity = 1;
+  for (const Real value : stresses(scene)) EXPECT_LT(static_cast<double>(value), 10000 * epsilon);
 }
 
 INSTANTIATE_TEST_SUITE_P(, ShearStress, testing::ValuesIn(all_scenes()),

@@ -272,8 +272,8 @@ TEST(Run, InterruptEndsItWithItsFilesClosed) {
   EXPECT_THAT(describe_file(folder / "run/particles.vtkhdf"), HasSubstr("time steps: "));
 }
 
-// The setup looks at some millions of lattice sites, the signal comes as soon as it is waited for. A shell that
-// starts the tests in the background has them ignore it until then.
+// The setup looks at some millions of lattice sites, the signal comes as soon as it is waited for. A shell
+// that starts the tests in the background has them ignore it until then.
 TEST(Run, InterruptDuringTheSetupLeavesTheOldRunAsItIs) {
   const TempFolder folder;
   run_text(tiny_case(), into(folder));
