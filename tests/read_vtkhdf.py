@@ -15,7 +15,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
-PARTICLE_ARRAYS = ("Velocity", "Pressure", "Density", "Viscosity", "ShearRate", "ShearStress", "Yielded", "Fluid", "ParticleId")
+PARTICLE_ARRAYS = ("Velocity", "Pressure", "Density", "Viscosity", "ShearRate", "ShearStress", "SheetThickness", "Yielded", "Fluid", "ParticleId")
 
 
 class File:

@@ -53,6 +53,7 @@ struct Totals {
   double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
   double dissipated_energy = 0;            // [J], by viscosity since the start
   double max_density_error = 0;     // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
+  std::int64_t in_thin_sheets = 0;  // particles in sheets below three across (observation/sheets.hpp)
   double min_density_ratio = 1;     // smallest rho/rho0
   Vec3d momentum;                   // [kg m/s]
   Vec3d angular_momentum;           // [kg m^2/s] about the origin

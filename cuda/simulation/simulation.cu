@@ -56,6 +56,7 @@ Simulation::State::State(const SimulationSetup& s)
       watch(context, setup),
       planes(s),
       below_faces(context),
+      sheets(context),
       step_graph(context, "steps"),
       yielded(context, "yielded"),
       side_stream(context) {

@@ -24,6 +24,7 @@ struct FluidSnapshot {
   std::vector<float> viscosity;          // [Pa s]
   std::vector<float> shear_rate;         // [1/s]
   std::vector<float> shear_stress;       // [Pa]
+  std::vector<float> thickness;          // [m] of the sheet that the particle is in
   std::vector<std::uint8_t> yielded;     // 1 where that exceeds the yield stress
   std::vector<std::uint8_t> fluid;       // index of the fluid
   std::vector<std::int64_t> id;          // constant through the run
@@ -38,6 +39,7 @@ void describe(Visitor& v, const FluidSnapshot& s) {
   v("Viscosity", "Pa s", "dynamic viscosity", s.viscosity);
   v("ShearRate", "1/s", "shear rate", s.shear_rate);
   v("ShearStress", "Pa", "magnitude of the viscous stress", s.shear_stress);
+  v("SheetThickness", "m", "thickness of the sheet, thread or drop, up to some four spacings", s.thickness);
   v("Yielded", "1", "1 where the stress exceeds the yield stress", s.yielded);
   v("Fluid", "1", "index of the fluid, in the order of the case", s.fluid);
   v("ParticleId", "1", "number of the particle, constant through the run", s.id);

@@ -1,18 +1,8 @@
 // What a simulation tells of itself: totals and profiles.
-#include "backend/launch.hpp"
 #include "simulation/simulation_state.hpp"
 #include "viscosity/shear_stress.hpp"
 
 namespace slagflow {
-
-namespace {
-
-struct NoStress {
-  Span<Real> result;
-  HOST_DEVICE void operator()(Index i) const { result[i] = 0; }
-};
-
-}  // namespace
 
 double Simulation::neighbours_mean() const {
   State& s = *state_;
@@ -24,6 +14,7 @@ Totals Simulation::totals() {
   Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
   t.particles = s.fluid.count;
   t.mass_start = s.start_mass;
+  t.in_thin_sheets = s.sheets.count_thin(s.pairs(), s.diagnostics);
   t.dissipated_energy = s.taken + s.wall_work().viscous;
   for (std::size_t kind = 0; kind < s.departed.size(); ++kind)
     for (std::size_t face = 0; face < faces; ++face) {
@@ -55,11 +46,8 @@ std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
   return measure_profile(s.context, source, s.setup.lines.at(line), s.setup.domain.lower);
 }
 
-// Before the first step there are no pairs, and no stress.
 void Simulation::State::measure_stress(Span<Real> result) {
-  if (builds == 0)
-    launch(context, "shear stress", fluid.count, NoStress{result});
-  else if (exact_yield())
+  if (exact_yield())
     viscous.exact_yield().measure_stress(pairs(), fluid.shear_rate.span(), result);
   else
     measure_shear_stress(context, pairs(), static_cast<Real>(last_dt), result);

@@ -78,7 +78,8 @@ void StateTransfer::Data::put(FluidSnapshot& out) const {
   const Index* id = part(f.id);
   const Vec3d* position = part(f.position);
   const Quad *motion = part(f.motion), *state = part(f.state);
-  const Real *pressure = part(f.pressure), *shear_rate = part(f.shear_rate), *stress = part(of->scratch);
+  const Real *pressure = part(f.pressure), *shear_rate = part(f.shear_rate), *stress = part(of->scratch),
+             *thickness = part(of->sheets.thickness());
   const std::uint8_t *kind = part(f.fluid), *yielded = part(of->yielded);
   std::vector<std::size_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = i;
@@ -86,8 +87,8 @@ void StateTransfer::Data::put(FluidSnapshot& out) const {
 
   out.time = time;
   out.position.resize(n), out.velocity.resize(n), out.pressure.resize(n), out.density.resize(n);
-  out.viscosity.resize(n), out.shear_rate.resize(n), out.shear_stress.resize(n), out.yielded.resize(n),
-      out.fluid.resize(n), out.id.resize(n);
+  out.viscosity.resize(n), out.shear_rate.resize(n), out.shear_stress.resize(n), out.thickness.resize(n);
+  out.yielded.resize(n), out.fluid.resize(n), out.id.resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = order[k];
     const Quad m = motion[i];
@@ -98,6 +99,7 @@ void StateTransfer::Data::put(FluidSnapshot& out) const {
     out.viscosity[k] = static_cast<float>(state[i].y);
     out.shear_rate[k] = static_cast<float>(shear_rate[i]);
     out.shear_stress[k] = static_cast<float>(stress[i]);
+    out.thickness[k] = static_cast<float>(thickness[i]);
     out.yielded[k] = yielded[i], out.fluid[k] = kind[i], out.id[k] = id[i];
   }
 }
@@ -128,11 +130,12 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
   launch(s.context, "yielded", n,
          FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.scratch.span(), s.yielded.span(),
                      s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{}});
+  const Buffer<Real>& thickness = s.sheets.measure(s.pairs());
   StateTransfer::Data& data = *transfer.data_;
   data.what = what, data.time = s.time;
   data.fluid = static_cast<std::size_t>(n), data.walls = static_cast<std::size_t>(s.wall.count);
   data.parts.clear(), data.buffers.clear();
-  data.add_shown(s.fluid), data.add(s.scratch), data.add(s.yielded);
+  data.add_shown(s.fluid), data.add(s.scratch), data.add(thickness), data.add(s.yielded);
   if (what == Reading::fluid_and_walls) data.add_shown(s.wall);
   data.copy.start(s.side_stream, data.parts);
   data.of = state_.get();

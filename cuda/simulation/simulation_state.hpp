@@ -13,6 +13,7 @@
 #include "observation/diagnostics.hpp"
 #include "observation/measures.hpp"
 #include "observation/penetration.hpp"
+#include "observation/sheets.hpp"
 #include "observation/wall_forces.hpp"
 #include "observation/watch.hpp"
 #include "pressure/density.hpp"
@@ -49,6 +50,7 @@ struct Simulation::State {
   Watch watch;
   PlaneCounters planes;
   BelowFaces below_faces;
+  SheetThickness sheets;
 
   double time = 0, dt = 0, full_dt = 0, displacement = 0, capillary_work = 0;
   double last_dt = 0;  // [s] that the last step took; 0 before the first

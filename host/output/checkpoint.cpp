@@ -21,20 +21,22 @@ constexpr std::size_t seal_bytes = 16;
 
 using Real64 = double RunRecord::*;
 using Whole = std::int64_t RunRecord::*;
-constexpr std::array<std::pair<const char*, Real64>, 6> reals{
+constexpr std::array<std::pair<const char*, Real64>, 7> reals{
     {{"time", &RunRecord::time},
      {"next_snapshot", &RunRecord::next_snapshot},
      {"next_history", &RunRecord::next_history},
      {"wall_time", &RunRecord::wall_time},
      {"setup_time", &RunRecord::setup_time},
-     {"deepest_in_wall", &RunRecord::deepest_in_wall}}};
-constexpr std::array<std::pair<const char*, Whole>, 11> wholes{
+     {"deepest_in_wall", &RunRecord::deepest_in_wall},
+     {"time_of_most_in_sheets", &RunRecord::time_of_most_in_sheets}}};
+constexpr std::array<std::pair<const char*, Whole>, 12> wholes{
     {{"steps", &RunRecord::steps},
      {"recorded_step", &RunRecord::recorded_step},
      {"snapshot_step", &RunRecord::snapshot_step},
      {"particles_now", &RunRecord::particles_now},
      {"particle_steps", &RunRecord::particle_steps},
      {"most_in_walls", &RunRecord::most_in_walls},
+     {"most_in_sheets", &RunRecord::most_in_sheets},
      {"history_lines", &RunRecord::history_lines},
      {"history_bytes", &RunRecord::history_bytes},
      {"snapshots", &RunRecord::snapshots},
@@ -73,8 +75,9 @@ RunRecord record_of(const SavedState& arrays, const std::string& path) {
   };
   for (const auto& [name, member] : reals) take(name, &(run.*member));
   for (const auto& [name, member] : wholes) take(name, &(run.*member));
-  for (const std::int64_t count : {run.steps, run.particles_now, run.particle_steps, run.most_in_walls,
-                                   run.history_lines, run.history_bytes, run.snapshots, run.resumes})
+  for (const std::int64_t count :
+       {run.steps, run.particles_now, run.particle_steps, run.most_in_walls, run.most_in_sheets,
+        run.history_lines, run.history_bytes, run.snapshots, run.resumes})
     if (count < 0) throw Error(path + ": a count of the run is negative");
   const auto take_all = [&](const char* name, auto& values) {
     const SavedArray& array = find(arrays, name, path);

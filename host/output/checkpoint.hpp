@@ -27,6 +27,8 @@ struct RunRecord {
   std::int64_t snapshot_step = -1;             // of the last snapshot
   std::int64_t particles_now = 0;              // at the last line of the history
   std::int64_t particle_steps = 0;             // see RunCounts
+  double time_of_most_in_sheets = 0;           // [s]
+  std::int64_t most_in_sheets = 0;             // see ThinSheets
   std::int64_t most_in_walls = 0;              // see InWalls
   std::int64_t history_lines = 0;              // without the header
   std::int64_t history_bytes = 0;              // of the file up to the end of the last line

@@ -91,6 +91,7 @@ std::vector<std::string> history_columns() {
           "max_density_error",
           "mass_in_kg",
           "mass_left_kg",
+          "in_thin_sheets",
           "iterations",
           "residual"};
 }
@@ -110,6 +111,7 @@ std::vector<double> history_values(const Simulation& simulation, const Totals& t
           totals.max_density_error,
           totals.mass_in,
           totals.mass_left,
+          static_cast<double>(totals.in_thin_sheets),
           static_cast<double>(solve.iterations),
           solve.residual};
 }

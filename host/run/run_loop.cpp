@@ -67,6 +67,7 @@ void Run::go_on_from(Checkpoint checkpoint) {
                 ": the case gives other particles at the start than it did: have its STL files changed?");
   measures_.restore(run.measures);
   losses_.restore(run.most_in_walls, run.deepest_in_wall);
+  thin_sheets_.restore(run.most_in_sheets, run.time_of_most_in_sheets);
   snapshot_due_.restore(run.next_snapshot);
   history_due_.restore(run.next_history);
   recorded_step_ = run.recorded_step;
@@ -172,6 +173,7 @@ void Run::record() {
   const Totals totals = simulation_->totals();
   particles_now_ = totals.particles;
   losses_.look(*simulation_);
+  thin_sheets_.look(totals, simulation_->time());
   std::vector<double> values = history_values(*simulation_, totals);
   const auto read = [this]() -> const FluidSnapshot& {
     simulation_->read(measured_);
@@ -214,6 +216,8 @@ RunRecord Run::run_record() {
   run.particle_steps = counts_.particle_steps;
   run.most_in_walls = losses_.in_walls().most;
   run.deepest_in_wall = losses_.in_walls().deepest;
+  run.most_in_sheets = thin_sheets_.most();
+  run.time_of_most_in_sheets = thin_sheets_.time_of_most();
   run.wall_time = wall_before_ + seconds_between(started_, Clock::now());
   run.setup_time = counts_.setup_time;
   run.resumes = resumes_;
@@ -274,12 +278,13 @@ void Run::tell_losses() {
   if (!simulation_) return;
   try {
     const Totals totals = simulation_->totals();
-    for (const std::string& line : losses_.lines(totals, counts_.particles_start)) {
-      log_.info(line);
-      outcome_.results.push_back(line);
-    }
-    for (const std::string& warning : losses_.warnings(totals, counts_.particles_start))
-      log_.warning(warning);
+    const std::int64_t start = counts_.particles_start;
+    const auto tell = [&](const std::vector<std::string>& lines, const std::vector<std::string>& warnings) {
+      for (const std::string& line : lines) log_.info(line), outcome_.results.push_back(line);
+      for (const std::string& warning : warnings) log_.warning(warning);
+    };
+    tell(losses_.lines(totals, start), losses_.warnings(totals, start));
+    tell(thin_sheets_.lines(built_.resolved, start), thin_sheets_.warnings(built_.resolved, start));
   } catch (const std::exception& error) {
     log_.warning(std::string("the losses are not known: ") + error.what());
   }
@@ -309,6 +314,7 @@ void Run::write_summary() {
   try {
     if (simulation_) add_results(summary, *simulation_, counts_);
     if (simulation_) losses_.add_to(summary, simulation_->totals());
+    thin_sheets_.add_to(summary);
   } catch (const std::exception& error) {
     log_.warning(std::string("the summary lacks the results: ") + error.what());
   }

@@ -10,6 +10,7 @@
 #include "host/measures/losses.hpp"
 #include "host/measures/measures.hpp"
 #include "host/measures/profiles.hpp"
+#include "host/measures/thin_sheets.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/output/history.hpp"
 #include "host/output/provenance.hpp"
@@ -84,6 +85,7 @@ class Run {
   FluidSnapshot measured_;  // buffer of the measures
   Measures measures_;
   Losses losses_;
+  ThinSheets thin_sheets_;
   std::string ended_early_;  // why, if it did
   std::optional<Checkpoint> resumed_;
   std::optional<Simulation> simulation_;

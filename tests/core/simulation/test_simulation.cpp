@@ -48,6 +48,7 @@ void expect_same_bits(const FluidSnapshot& a, const FluidSnapshot& b) {
   expect_same_bits(a.viscosity, b.viscosity, "viscosity"),
       expect_same_bits(a.shear_rate, b.shear_rate, "shear rate");
   expect_same_bits(a.shear_stress, b.shear_stress, "shear stress");
+  expect_same_bits(a.thickness, b.thickness, "sheet thickness");
   expect_same_bits(a.yielded, b.yielded, "yielded"), expect_same_bits(a.fluid, b.fluid, "fluid");
   expect_same_bits(a.id, b.id, "id");
 }

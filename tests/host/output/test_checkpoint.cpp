@@ -33,6 +33,7 @@ Checkpoint sample(std::int64_t step) {
   c.run.time = 0.25;
   c.run.steps = step;
   c.run.history_bytes = 12345678901;
+  c.run.most_in_sheets = 7, c.run.time_of_most_in_sheets = 0.25;
   c.run.most_in_walls = 12, c.run.deepest_in_wall = 1.25;
   c.run.measures = {1.5, std::numeric_limits<double>::quiet_NaN(), -0.0};
   SavedArray position{"position", 24, std::vector<std::byte>(24 * 700)};
@@ -64,6 +65,8 @@ TEST(Checkpoint, ComesBackToTheBit) {
   EXPECT_EQ(read.run.steps, 7);
   EXPECT_EQ(read.run.recorded_step, -1);
   EXPECT_EQ(read.run.history_bytes, 12345678901);
+  EXPECT_EQ(read.run.most_in_sheets, 7);
+  EXPECT_EQ(read.run.time_of_most_in_sheets, 0.25);
   EXPECT_EQ(read.run.most_in_walls, 12);
   EXPECT_EQ(read.run.deepest_in_wall, 1.25);
   ASSERT_EQ(read.run.measures.size(), 3u);

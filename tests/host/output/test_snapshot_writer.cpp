@@ -19,7 +19,7 @@ void fill(Snapshot& s, double time, std::size_t count) {
   p.time = s.walls.time = time;
   p.position.assign(count, {time, 0, 0});
   p.velocity.assign(count, {1, 2, 3});
-  for (auto* values : {&p.pressure, &p.density, &p.viscosity, &p.shear_rate, &p.shear_stress})
+  for (auto* values : {&p.pressure, &p.density, &p.viscosity, &p.shear_rate, &p.shear_stress, &p.thickness})
     values->assign(count, static_cast<float>(time));
   p.yielded.assign(count, 1);
   p.fluid.assign(count, 0);

@@ -1,0 +1,133 @@
+#include "backend/launch.hpp"
+#include "fluid/diagnostic_sums.hpp"
+#include "fluid/lane_math.hpp"
+#include "observation/sheets.hpp"
+
+namespace slagflow {
+
+namespace {
+
+struct Axis {
+  Real spread;  // diagonal element
+  Vec3 direction;
+};
+
+// Jacobi's rotation of the axes p and q that makes the element pq zero; rp, rq: those with the third axis.
+HOST_DEVICE inline void rotate(Axis& p, Axis& q, Real& pq, Real& rp, Real& rq) {
+  if (pq == 0) return;
+  const Real theta = (q.spread - p.spread) / (2 * pq);
+  const Real t = (theta < 0 ? Real(-1) : Real(1)) / (std::fabs(theta) + std::sqrt(square(theta) + 1));
+  const Real c = 1 / std::sqrt(square(t) + 1), s = t * c, before = rp;
+  p.spread -= t * pq, q.spread += t * pq, pq = 0;
+  rp = c * before - s * rq, rq = s * before + c * rq;
+  const Vec3 old = p.direction;
+  p.direction = c * old - s * q.direction, q.direction = s * old + c * q.direction;
+}
+
+template <class Box>
+struct Pairs {
+  PairContext c;
+  Box box;
+
+  // visit(x_ij, which lanes are within the support, j)
+  template <class Visit>
+  HOST_DEVICE void each(Index i, Visit visit) const {
+    const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
+    const Offset first = c.fluid_list.row(i);
+    const Index pairs = c.fluid_list.length[i];
+    for (Index k = 0; k < pairs; k += lane_count) {
+      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, j)));
+      visit(d, (dot(d, d) < Lanes(square(c.flow.support))) & first_lanes(pairs - k), j);
+    }
+  }
+};
+
+template <class Box>
+struct SeenThickness {
+  Pairs<Box> pairs;
+  Span<Real> seen;
+
+  // Of the places of the particle and its neighbours about their mean.
+  HOST_DEVICE Symmetric3 spread(Index i) const {
+    LaneVec3 sum;
+    SymmetricMatrix3<Lanes> squares;
+    Lanes count = 0;
+    pairs.each(i, [&](LaneVec3 d, LaneMask near, const Index*) {
+      const Lanes one = select(near, Lanes(1), Lanes(0));
+      sum += one * d, count += one;
+      squares.add_outer(one, d);
+    });
+    Symmetric3 all = total(squares);
+    all.add_outer(-1 / (total(count) + 1), total(sum));
+    if (pairs.c.flow.dimensions == 2) all.yy = 2 * (all.xx + all.zz);  // not the axis across the plane
+    return all;
+  }
+
+  HOST_DEVICE void operator()(Index i) const {
+    const LaneVec3 axis = in_lanes(least_axis(spread(i)));
+    Lanes low = 0, high = 0;
+    pairs.each(i, [&](LaneVec3 d, LaneMask near, const Index*) {
+      const Lanes along = select(near, dot(d, axis), Lanes(0));
+      low = smaller(low, along), high = smaller(high, Lanes(0) - along);
+    });
+    seen[i] = pairs.c.flow.spacing - least(low) - least(high);
+  }
+};
+
+template <class Box>
+struct LargestSeen {
+  Pairs<Box> pairs;
+  Span<const Real> seen;
+  Span<Real> thickness;
+  HOST_DEVICE void operator()(Index i) const {
+    Lanes most = -seen[i];
+    pairs.each(i, [&](LaneVec3, LaneMask near, const Index* j) {
+      most = smaller(most, select(near, Lanes(0) - gather(seen, j), most));
+    });
+    thickness[i] = -least(most);
+  }
+};
+
+struct IsThin {
+  Span<const Real> thickness;
+  Real limit;
+  HOST_DEVICE double operator()(Index i) const { return thickness[i] < limit ? 1 : 0; }
+};
+
+}  // namespace
+
+HOST_DEVICE Vec3 least_axis(Symmetric3 a) {
+  constexpr int sweeps = 4;
+  Axis x{a.xx, {1, 0, 0}}, y{a.yy, {0, 1, 0}}, z{a.zz, {0, 0, 1}};
+  for (int k = 0; k < sweeps; ++k) {
+    rotate(x, y, a.xy, a.xz, a.yz);
+    rotate(x, z, a.xz, a.xy, a.yz);
+    rotate(y, z, a.yz, a.xy, a.xz);
+  }
+  if (x.spread <= y.spread && x.spread <= z.spread) return x.direction;
+  return y.spread <= z.spread ? y.direction : z.direction;
+}
+
+SheetThickness::SheetThickness(Context& c)
+    : context_(c), seen_(c, "thickness seen"), thickness_(c, "sheet thickness") {}
+
+const Buffer<Real>& SheetThickness::measure(const PairContext& c) {
+  const Index n = c.fluid.count;
+  seen_.resize(n), thickness_.resize(n);
+  auto sweep = [&](auto box) {
+    using Box = decltype(box);
+    launch(context_, "thickness seen", n, SeenThickness<Box>{{c, box}, seen_.span()});
+    launch(context_, "sheet thickness", n, LargestSeen<Box>{{c, box}, seen_.span(), thickness_.span()});
+  };
+  c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+  return thickness_;
+}
+
+std::int64_t SheetThickness::count_thin(const PairContext& c, DiagnosticScratch& scratch) {
+  const Span<const Real> thickness = measure(c).span();
+  return count(context_, scratch, c.fluid.count,
+               IsThin{thickness, static_cast<Real>(thin_sheet) * c.flow.spacing});
+}
+
+}  // namespace slagflow
