@@ -70,7 +70,8 @@ def check_sample(path, counts):
         check_cells(data)
         if counts[s] == 0:  # VTK 9.3 then reads no arrays at all
             continue
-        np.testing.assert_array_equal(points(data), np.stack([i, 0 * i + s, -i], axis=1))
+        np.testing.assert_array_equal(points(data), np.stack([3e6 + 1e-3 * i, 0 * i + s, -i], axis=1))
+        assert points(data).dtype == np.float64
         np.testing.assert_array_equal(array(data, "Velocity"), np.stack([0 * i + s, i, s + i], axis=1))
         np.testing.assert_array_equal(array(data, "Pressure"), 1000 * s + i)
         np.testing.assert_array_equal(array(data, "Fluid"), i % 3)
@@ -87,7 +88,7 @@ def check_fixed(path):
     i = np.arange(4)
     for s, time in enumerate(file.times):
         data = file.at(time)
-        np.testing.assert_array_equal(points(data), np.stack([i, 0 * i, -i], axis=1))
+        np.testing.assert_array_equal(points(data), np.stack([3e6 + 1e-3 * i, 0 * i, -i], axis=1))
         np.testing.assert_array_equal(array(data, "Pressure"), 1000 * s + i)
         check_cells(data)
 

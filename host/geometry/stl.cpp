@@ -11,6 +11,7 @@
 #include <map>
 
 #include "backend/error.hpp"
+#include "host/case/toml_reader.hpp"
 #include "host/geometry/stl_bodies.hpp"
 
 namespace slagflow {
@@ -133,73 +134,151 @@ std::vector<Triangle> read_ascii(const std::string& text, const std::string& fil
   return triangles;
 }
 
-// Gives corners at the same place the same number. Places closer than a millionth of the surface's extent
-// count as one, since writers round.
-std::vector<Corners> weld(const std::vector<Triangle>& triangles) {
+// Numbers places; those closer than the tolerance to one that has a number get that number.
+class Welder {
+ public:
+  explicit Welder(double tolerance) : tolerance_(tolerance) {}
+
+  std::size_t number(Vec3d v) {
+    Cell low{}, high{};
+    for (int k = 0; k < 3; ++k) low[k] = cell(v[k] - tolerance_), high[k] = cell(v[k] + tolerance_);
+    for (long x = low[0]; x <= high[0]; ++x)
+      for (long y = low[1]; y <= high[1]; ++y)
+        for (long z = low[2]; z <= high[2]; ++z) {
+          const auto found = places_.find({x, y, z});
+          if (found == places_.end()) continue;
+          for (const auto& [place, number] : found->second)
+            if (norm(place - v) <= tolerance_) return number;
+        }
+    places_[{cell(v.x), cell(v.y), cell(v.z)}].emplace_back(v, count_);
+    return count_++;
+  }
+
+ private:
+  using Cell = std::array<long, 3>;
+  long cell(double value) const { return std::lround(value / (8 * tolerance_)); }
+
+  double tolerance_;
+  std::size_t count_ = 0;
+  std::map<Cell, std::vector<std::pair<Vec3d, std::size_t>>> places_;
+};
+
+// Corners closer than this count as one, since writers round: some print five digits.
+double weld_tolerance(const std::vector<Triangle>& triangles) {
   double largest = 0;
   const Vec3d base = triangles.front()[0];
   for (const Triangle& t : triangles)
     for (const Vec3d& v : t)
       for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(v[k] - base[k]));
-  const double cell = largest > 0 ? 1e-6 * largest : 1;
-  std::map<std::array<long, 3>, std::size_t> numbers;
+  return largest > 0 ? 1e-5 * largest : 1;
+}
+
+// Gives corners at the same place the same number.
+std::vector<Corners> weld(const std::vector<Triangle>& triangles) {
+  const Vec3d base = triangles.front()[0];
+  Welder welder(weld_tolerance(triangles));
   std::vector<Corners> welded;
   for (const Triangle& t : triangles) {
     Corners corners;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3d v = (t[c] - base) * (1 / cell);
-      corners[c] = numbers
-                       .emplace(std::array<long, 3>{std::lround(v.x), std::lround(v.y), std::lround(v.z)},
-                                numbers.size())
-                       .first->second;
-    }
+    for (std::size_t c = 0; c < 3; ++c) corners[c] = welder.number(t[c] - base);
     welded.push_back(corners);
   }
   return welded;
 }
 
-// Every edge must be run through as often one way as the other.
-void check_closed(const std::vector<Corners>& triangles, const std::string& name) {
+std::string text_of(Vec3d v) { return "(" + show(v.x) + ", " + show(v.y) + ", " + show(v.z) + ")"; }
+
+// Every edge must be run through as often one way as the other. Places are those of the file.
+void check_closed(const std::vector<Triangle>& triangles, const std::vector<Corners>& corners,
+                  double tolerance, const std::string& name) {
   struct Uses {
     long forward = 0, backward = 0;
+    Vec3d from, to;
   };
   std::map<std::pair<std::size_t, std::size_t>, Uses> edges;
-  for (const Corners& t : triangles)
+  for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
-      const std::size_t a = t[c], b = t[(c + 1) % 3];
+      const std::size_t a = corners[t][c], b = corners[t][(c + 1) % 3];
       Uses& uses = edges[std::minmax(a, b)];
       ++(a < b ? uses.forward : uses.backward);
+      uses.from = triangles[t][c], uses.to = triangles[t][(c + 1) % 3];
     }
   std::size_t open = 0, against = 0;
+  const Uses *first_open = nullptr, *first_against = nullptr;
   for (const auto& [edge, uses] : edges) {
     if ((uses.forward + uses.backward) % 2 != 0)
-      ++open;
+      ++open, first_open = first_open == nullptr ? &uses : first_open;
     else if (uses.forward != uses.backward)
-      ++against;
+      ++against, first_against = first_against == nullptr ? &uses : first_against;
   }
+  const auto place = [](const Uses& uses) { return text_of(uses.from) + " to " + text_of(uses.to); };
   if (open > 0)
     throw InputError(name + ": the surface is not closed: " + std::to_string(open) +
-                     " open edges: allowed: 0, every edge shared by two triangles");
+                     " open edges, one from " + place(*first_open) +
+                     " in the file's units (corners closer than " + show(tolerance) +
+                     " count as one): allowed: 0, every edge shared by two triangles");
   if (against > 0)
     throw InputError(name + ": the triangles do not agree which side is outside, at " +
-                     std::to_string(against) +
-                     " edges: allowed: corners in the same sense all over the surface");
+                     std::to_string(against) + " edges, one from " + place(*first_against) +
+                     ": allowed: corners in the same sense all over the surface");
+}
+
+// What a file is that is no STL, by how it begins; empty where that says nothing.
+std::string other_format(const std::string& bytes, std::size_t first) {
+  struct Format {
+    const char *beginning, *name;
+  };
+  constexpr std::array<Format, 9> formats{{{"v ", "a Wavefront OBJ file"},
+                                           {"mtllib", "a Wavefront OBJ file"},
+                                           {"o ", "a Wavefront OBJ file"},
+                                           {"#", "a Wavefront OBJ file, or another text"},
+                                           {"ply", "a PLY file"},
+                                           {"OFF", "an OFF file"},
+                                           {"ISO-10303", "a STEP file"},
+                                           {"PK", "a ZIP archive, as 3MF is"},
+                                           {"\xff\xfe", "UTF-16 text"}}};
+  for (const Format& format : formats)
+    if (bytes.compare(first, std::string(format.beginning).size(), format.beginning) == 0) return format.name;
+  return "";
+}
+
+// Binary: as many triangles as the header announces, and less than one more: some writers round the size up.
+bool is_binary(const std::string& bytes, std::size_t count) {
+  if (bytes.size() < header_bytes) return false;
+  const std::size_t rest = bytes.size() - header_bytes;
+  return rest / triangle_bytes == count && (count > 0 || rest == 0);
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& bytes, std::size_t count,
+                         std::size_t first) {
+  const std::string format = first == std::string::npos ? "" : other_format(bytes, first);
+  if (!format.empty())
+    throw InputError(file + ": looks like " + format +
+                     ": allowed: an STL file, ASCII or binary, as CAD programs export");
+  throw InputError(file + ": " + std::to_string(bytes.size()) + " bytes, " +
+                   (bytes.size() < header_bytes
+                        ? "too short for an STL file"
+                        : "but its header announces " + std::to_string(count) + " triangles = " +
+                              std::to_string(header_bytes + count * triangle_bytes) + " bytes"));
+}
+
+bool begins_with_solid(const std::string& bytes, std::size_t first) {
+  const std::string wanted = "solid";
+  if (first == std::string::npos || bytes.size() < first + wanted.size()) return false;
+  return std::equal(wanted.begin(), wanted.end(), bytes.begin() + static_cast<std::ptrdiff_t>(first),
+                    [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
 }
 
 }  // namespace
 
 std::vector<Triangle> read_stl(const std::string& file) {
-  const std::string bytes = read_bytes(file);
+  std::string bytes = read_bytes(file);
   const std::size_t count = declared_count(bytes);
-  const bool binary = bytes.size() >= header_bytes && bytes.size() - header_bytes == count * triangle_bytes;
+  const bool binary = is_binary(bytes, count);
+  const std::string mark = "\xef\xbb\xbf";  // of UTF-8, by some editors
+  if (!binary && bytes.compare(0, mark.size(), mark) == 0) bytes.erase(0, mark.size());
   const auto first = bytes.find_first_not_of(" \t\r\n");
-  const bool ascii = !binary && first != std::string::npos && bytes.compare(first, 5, "solid") == 0;
-  if (!binary && !ascii)
-    throw InputError(file + ": " + std::to_string(bytes.size()) + " bytes, " +
-                     (bytes.size() < header_bytes
-                          ? "too short for an STL file"
-                          : "but its header announces " + std::to_string(count) + " triangles = " +
-                                std::to_string(header_bytes + count * triangle_bytes) + " bytes"));
+  if (!binary && !begins_with_solid(bytes, first)) refuse(file, bytes, count, first);
   std::vector<Triangle> triangles = binary ? read_binary(bytes, file) : read_ascii(bytes, file);
   if (triangles.empty()) throw InputError(file + ": holds no triangle");
   return triangles;
@@ -216,7 +295,7 @@ std::vector<Triangle> closed_surface(const std::vector<Triangle>& triangles, con
     corners.push_back(c);
   }
   if (surface.empty()) throw InputError(name + ": no triangle has an area");
-  check_closed(corners, name);
+  check_closed(surface, corners, weld_tolerance(triangles), name);
   turn_bodies_outward(surface, corners, name);
   return surface;
 }

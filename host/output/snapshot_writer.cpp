@@ -25,13 +25,6 @@ struct Arrays {
   }
 };
 
-void to_float(const std::vector<Vec3d>& from, std::vector<Vector3<float>>& to) {
-  to.resize(from.size());
-  std::transform(from.begin(), from.end(), to.begin(), [](Vec3d p) {
-    return Vector3<float>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-  });
-}
-
 }  // namespace
 
 SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes)
@@ -144,12 +137,10 @@ void SnapshotWriter::work() {
 
 void SnapshotWriter::append(const Snapshot& snapshot) {
   const FluidSnapshot& p = snapshot.particles;
-  to_float(p.position, positions_);
-  particles_.append({p.time, positions_, Arrays(p).views});
+  particles_.append({p.time, p.position, Arrays(p).views});
   if (!walls_) return;
   const WallSnapshot& w = snapshot.walls;
-  to_float(w.position, positions_);
-  const PointStep step{w.time, positions_, Arrays(w).views};
+  const PointStep step{w.time, w.position, Arrays(w).views};
   w.moves || !walls_begun_ ? walls_->append(step) : walls_->append_at_same_points(step);
   walls_begun_ = true;
 }

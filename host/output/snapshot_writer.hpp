@@ -74,7 +74,6 @@ class SnapshotWriter {
   VtkhdfWriter particles_;
   std::optional<VtkhdfWriter> walls_;
   bool walls_begun_ = false;
-  std::vector<Vector3<float>> positions_;  // the thread's scratch
 
   std::array<Snapshot, 2> buffers_;
   std::mutex mutex_;  // guards all below

@@ -113,6 +113,7 @@ void create_points(const File& file, const std::vector<ArrayInfo>& arrays, hsize
   layout.components = 3;
   layout.chunk_rows = chunk;
   layout.storage = Storage::compressed;
+  layout.type = H5T_NATIVE_DOUBLE;
   create_described(file, "/VTKHDF/Points", layout, {"", "m", "position", ArrayType::float32, 3});
   create_group(file, "/VTKHDF/PointData");
   for (const ArrayInfo& info : arrays) {
@@ -176,10 +177,10 @@ hsize_t most_points(const File& file, std::int64_t steps) {
 }
 
 // Returns the row of the first point.
-std::int64_t write_points(const File& file, std::int64_t steps, const std::vector<Vector3<float>>& position) {
+std::int64_t write_points(const File& file, std::int64_t steps, const std::vector<Vec3d>& position) {
   const std::int64_t first = next_row(file, steps, point_offsets, "/VTKHDF/Points");
   const hsize_t count = position.size();
-  write_table(file, "/VTKHDF/Points", {static_cast<hsize_t>(first), count}, H5T_NATIVE_FLOAT,
+  write_table(file, "/VTKHDF/Points", {static_cast<hsize_t>(first), count}, H5T_NATIVE_DOUBLE,
               position.data());
   const hsize_t present = most_points(file, steps);  // there may be more rows, of a step that failed
   if (count > present) {
@@ -300,7 +301,7 @@ void VtkhdfWriter::append_at_same_points(const PointStep& step) const { append(s
 
 std::size_t VtkhdfWriter::bytes_of(const PointStep& step) const {
   const std::size_t count = step.position.size();
-  std::size_t row = sizeof(Vector3<float>) + 2 * sizeof(std::int64_t);
+  std::size_t row = sizeof(Vec3d) + 2 * sizeof(std::int64_t);
   for (std::size_t k = 0; k < arrays_.size(); ++k) {
     const ArrayView& view = step.arrays.at(k);
     if (view.size != count || view.type != arrays_[k].type || view.components != arrays_[k].components)

@@ -48,9 +48,9 @@ struct ArrayView {
 };
 
 struct PointStep {
-  double time = 0;                              // [s]
-  const std::vector<Vector3<float>>& position;  // [m]
-  std::vector<ArrayView> arrays;                // in the order of VtkhdfWriter::arrays()
+  double time = 0;                     // [s]
+  const std::vector<Vec3d>& position;  // [m], stored in fp64: a plant may stand at map coordinates
+  std::vector<ArrayView> arrays;       // in the order of VtkhdfWriter::arrays()
 };
 
 class VtkhdfWriter {

@@ -1,7 +1,9 @@
 #include "host/program/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <new>
 #include <string>
 #include <tuple>
@@ -56,6 +58,10 @@ const CLI::Validator above_zero(
       if (CLI::detail::lexical_cast(text, value) && above(0, "").holds(value)) return std::string();
       return "value " + text + ": allowed: " + above(0, "").text();
     },
+    "");
+
+const CLI::Validator not_empty(
+    [](const std::string& text) { return text.empty() ? "value \"\": allowed: a folder" : std::string(); },
     "");
 
 int run(const Arguments& arguments) {
@@ -134,6 +140,7 @@ void add_loop_options(CLI::App* command, RunOptions& run) {
 
 void add_run_options(CLI::App* command, RunOptions& run) {
   command->add_option("-o,--output", run.folder, "folder of the run (default: runs/<case name>)")
+      ->check(not_empty)
       ->type_name("DIR");
   command->add_flag_callback(
       "--overwrite", [&run] { run.overwrite = Overwrite::replace; }, "replace an earlier run in the folder");
@@ -216,11 +223,20 @@ int dispatch(int argc, const char* const* argv) {
   return check_command->parsed() ? check(arguments) : info(arguments);
 }
 
+// The status, or that of a failure where stdout took not all of the answer. Who stops reading has read
+// enough.
+int written(int status) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
+  if (errno == EPIPE || errno == 0) return status;
+  throw Error(std::string("cannot write to stdout: ") + std::strerror(errno));
+}
+
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
   try {
-    return dispatch(argc, argv);
+    return written(dispatch(argc, argv));
   } catch (const InputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

@@ -1,13 +1,13 @@
-// Ctrl-C, SIGTERM and SIGUSR1 during a run.
+// Ctrl-C, SIGTERM, SIGHUP and SIGUSR1 during a run.
 #pragma once
 
 #include <csignal>
 
 namespace slagflow {
 
-// While it lives, a first SIGINT or SIGTERM only sets a flag and a second one ends the process at once;
-// SIGUSR1 sets another flag.
-// One at a time: the flag belongs to the process, as signals do.
+// While it lives, a first SIGINT or SIGTERM only sets a flag and a second one ends the process at once; so
+// does the SIGHUP of a terminal that is closed, unless it was ignored before (nohup). SIGUSR1 sets another
+// flag. One at a time: the flag belongs to the process, as signals do.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -21,7 +21,7 @@ class InterruptGuard {
 
  private:
   struct sigaction interrupt_ {
-  }, terminate_{}, checkpoint_{};
+  }, terminate_{}, hang_up_{}, checkpoint_{};
 };
 
 }  // namespace slagflow

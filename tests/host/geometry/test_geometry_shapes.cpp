@@ -196,7 +196,9 @@ TEST(GeometryStl, BadFilesAreRefusedWithTheReason) {
   EXPECT_THAT(error(""), HasSubstr("too short for an STL file"));
   EXPECT_THAT(error(bytes.substr(0, 50)), HasSubstr("too short"));
   EXPECT_THAT(error(bytes.substr(0, bytes.size() - 1)), HasSubstr("announces 12 triangles = 684 bytes"));
-  EXPECT_THAT(error(bytes + "x"), HasSubstr("685 bytes, but its header announces 12 triangles"));
+  EXPECT_EQ(error(bytes + "abc"), "accepted");  // some writers round the size up
+  EXPECT_THAT(error(bytes + std::string(50, 'x')),
+              HasSubstr("734 bytes, but its header announces 12 triangles"));
   EXPECT_THAT(error(binary_stl({})), HasSubstr("holds no triangle"));
   EXPECT_THAT(error("solid a\nendsolid a\n"), HasSubstr("holds no triangle"));
   EXPECT_THAT(error(text.substr(0, text.size() / 2)), HasSubstr("expected, found"));

@@ -19,7 +19,8 @@ using testing_tools::TempFolder;
 
 // Points and data that follow from the step and the point number; read_vtkhdf.py knows the same formulas.
 struct Sample {
-  std::vector<Vector3<float>> position, velocity;
+  std::vector<Vec3d> position;
+  std::vector<Vector3<float>> velocity;
   std::vector<float> pressure;
   std::vector<std::uint8_t> fluid;
   std::vector<std::int64_t> id;
@@ -27,7 +28,7 @@ struct Sample {
   Sample(int step, int count) {
     for (int i = 0; i < count; ++i) {
       const auto s = static_cast<float>(step), k = static_cast<float>(i);
-      position.push_back({k, s, -k});
+      position.push_back({3e6 + 1e-3 * i, static_cast<double>(step), -static_cast<double>(i)});
       velocity.push_back({s, k, s + k});
       pressure.push_back(1000 * s + k);
       fluid.push_back(static_cast<std::uint8_t>(i % 3));
@@ -187,7 +188,7 @@ TEST(Vtkhdf, StaysSmall) {
   const TempFolder folder;
   const VtkhdfWriter writer(folder / "p.vtkhdf", sample_arrays());
   write_sample(writer, std::vector<int>(10, 20000), 20000);
-  const double raw = 10 * 20000.0 * (12 + 12 + 4 + 1 + 8);
+  const double raw = 10 * 20000.0 * (24 + 12 + 4 + 1 + 8);
   EXPECT_LT(static_cast<double>(std::filesystem::file_size(writer.path())), raw);
 }
 
