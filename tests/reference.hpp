@@ -43,6 +43,7 @@ struct Particle {
   double volume = 0, mass = 0, pressure = 0, viscosity = 0;
   double packing = 1;      // density at the start over that at rest
   double contact = -1e30;  // the least pressure towards walls
+  double hollow = 0;       // void that must close before the density rises [kg/m^3]
   int fluid = 0;
 };
 
@@ -220,15 +221,41 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
   return sum;
 }
 
+// What is left of the void of particle i: no more than the places of all, half-way along the step, leave room
+// for.
+inline double hollow_left(const World& w, std::size_t i, double dt) {
+  const Particle& p = w.particles[i];
+  double fill = p.volume * w.smoothing().value(0);
+  auto pair = [&](Vec half_way, double volume) {
+    if (length(half_way) < w.support) fill += volume * w.smoothing().value(length(half_way));
+  };
+  for_fluid_pairs(
+      w, i, [&](const Particle& j, Vec d) { pair(d - 0.5 * dt * (p.v - j.v), j.volume); }, reach_before);
+  for_wall_pairs(
+      w, i, [&](const Wall& j, Vec d) { pair(d - 0.5 * (dt * p.v - w.moved(j, dt)), w.wall_volume()); },
+      reach_before);
+  return std::min(p.hollow, w.kind(p).rest_density * std::max(0.0, 1.02 - fill));
+}
+
 // Morris' factor of a wall pair, for the face before which the fluid particle stands: the difference between
 // the particle's velocity and the wall particle's on a line that vanishes at the slip length behind the face.
-inline double no_slip_factor(const World& w, const Wall& wall, Vec d) {
-  auto factor = [&](Vec normal, double depth) {
-    const double height = std::max(dot(d, normal) - depth, w.spacing / 4);
-    return std::min(3.0, (height + depth) / (height + wall.slip_length));
-  };
+struct FaceBetween {
+  double depth, height;
+};
+inline FaceBetween face_between(const World& w, const Wall& wall, Vec d) {
   const bool before_back = wall.back_depth > 0 && dot(d, wall.back_normal) > wall.back_depth;
-  return before_back ? factor(wall.back_normal, wall.back_depth) : factor(wall.normal, wall.depth);
+  const Vec normal = before_back ? wall.back_normal : wall.normal;
+  const double depth = before_back ? wall.back_depth : wall.depth;
+  return {depth, std::max(dot(d, normal) - depth, w.spacing / 4)};
+}
+inline double no_slip_factor(const World& w, const Wall& wall, Vec d) {
+  const FaceBetween f = face_between(w, wall, d);
+  return std::min(3.0, (f.height + f.depth) / (f.height + wall.slip_length));
+}
+// The share of the velocity between fluid and wall that shears the fluid, and does not slip.
+inline double share_in_fluid(const World& w, const Wall& wall, Vec d) {
+  const double height = face_between(w, wall, d).height;
+  return height / (height + wall.slip_length);
 }
 
 // gamma_i^2 of the step of dt that has brought all to where they are. Of a pair of two fluids each has the
@@ -257,26 +284,54 @@ inline Sum shear_rate_squared(const World& w, std::size_t i, double dt = 0) {
       [&](const Wall& j, Vec d) {  // i carries all that the pair dissipates
         const Vec half_way = d - 0.5 * (dt * p.v - w.moved(j, dt));
         if (j.sticks)
-          pair(d, 2 * no_slip_factor(w, j, half_way) * w.wall_volume(), j.v - dt * j.acceleration,
-               dt * p.v - w.moved(j, dt));
+          pair(d, 2 * no_slip_factor(w, j, half_way) * share_in_fluid(w, j, half_way) * w.wall_volume(),
+               j.v - dt * j.acceleration, dt * p.v - w.moved(j, dt));
       },
       reach_before);
   return sum;
 }
 
-// Pressure of particle i towards walls for being below a surface: of the nearest part of one, seen from the
-// wall particles that stand behind it.
+// Pressure of particle i towards walls for being below a surface: of the nearest face of one, seen from the
+// wall particles that stand behind it; all faces of a convex body count at its edges.
+struct WallFace {
+  Vec normal;
+  double depth = 0;
+};
+inline std::vector<WallFace> faces_of(const Wall& w) {
+  std::vector<WallFace> faces{{w.normal, w.depth}};
+  if (w.back_depth > 0) faces.push_back({w.back_normal, w.back_depth});
+  return faces;
+}
+inline bool stands_above(const World& w, Vec d, Vec normal) {
+  const Vec aside = d - dot(d, normal) * normal;
+  const double most = std::max({std::fabs(aside.x), std::fabs(aside.y), std::fabs(aside.z)});
+  return dot(d, normal) > 0 && most < 0.51 * w.spacing;
+}
 inline double contact_pressure(const World& w, std::size_t i) {
-  double distance = 1e30;
+  double nearest = 1e30;
+  const auto below = [&](Vec from, const WallFace& f) {
+    return dot(from, f.normal) < f.depth - 0.25 * w.spacing;
+  };
   for_wall_pairs(w, i, [&](const Wall& j, Vec d) {
-    const double height = dot(d, j.normal);
-    const Vec aside = d - height * j.normal;
-    const double most = std::max({std::fabs(aside.x), std::fabs(aside.y), std::fabs(aside.z)});
-    if (height <= 0 || most >= 0.51 * w.spacing) return;
-    double from_surface = height - j.depth;
-    if (j.back_depth > 0) from_surface = std::max(from_surface, dot(d, j.back_normal) - j.back_depth);
-    distance = std::min(distance, from_surface);
+    const std::vector<WallFace> own = faces_of(j);
+    bool above = stands_above(w, d, j.normal);
+    double distance = -1e30;
+    for (const WallFace& f : own) distance = std::max(distance, dot(d, f.normal) - f.depth);
+    const auto partner = [&](const Wall& k, Vec e) {
+      for (const WallFace& f : own)
+        if (!below(d - e, f)) return;
+      for (const WallFace& f : faces_of(k)) {
+        if (!below(e - d, f)) continue;
+        distance = std::max(distance, dot(e, f.normal) - f.depth);
+        above = above || stands_above(w, d, f.normal);
+      }
+    };
+    for_wall_pairs(w, i, partner, 1.1);
+    if (above) nearest = std::min(nearest, distance);
   });
+  double closest = 1e30;
+  for_wall_pairs(w, i, [&](const Wall&, Vec d) { closest = std::min(closest, length(d)); });
+  const double distance = closest < 0.95 * w.spacing ? nearest : 1e30;
   const Particle& p = w.particles[i];
   const double stiffness = w.kind(p).rest_density * w.sound_speed * w.sound_speed;
   return distance < 0 ? -stiffness * distance / w.spacing : -1e30;

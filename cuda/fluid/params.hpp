@@ -103,15 +103,29 @@ struct WallPairGeometry {
   Face back;    // the same of the opposite face of a thin plate, w = 0 without one
 };
 
-// `slip_length`: b [m] >= 0, 0 without slip.
+// Depth of the wall particle below the face before which the fluid particle is, and the distance of that from
+// it, a quarter of a spacing at least.
+template <class T>
+struct FaceBetween {
+  T depth, distance;
+};
 template <class T, class Face>
-HOST_DEVICE T no_slip_factor(const WallPairGeometry<T, Face>& pair, Real spacing, T slip_length) {
+HOST_DEVICE FaceBetween<T> face_between(const WallPairGeometry<T, Face>& pair, Real spacing) {
   const Vector3<T> d = pair.fluid_minus_wall;
   const T front = dot(d, xyz(pair.normal)) - pair.normal.w, rear = dot(d, xyz(pair.back)) - pair.back.w;
   const auto behind = (pair.back.w > T(0)) & (rear > T(0));
-  const T depth = select(behind, pair.back.w, pair.normal.w);
-  const T d_f = larger(select(behind, rear, front), T(Real(0.25) * spacing));
-  return smaller(T(3), T(1) + (depth - slip_length) / (d_f + slip_length));
+  return {select(behind, pair.back.w, pair.normal.w),
+          larger(select(behind, rear, front), T(Real(0.25) * spacing))};
+}
+
+// `slip_length`: b [m] >= 0, 0 without slip.
+template <class T>
+HOST_DEVICE T no_slip_factor(const FaceBetween<T>& face, T slip_length) {
+  return smaller(T(3), T(1) + (face.depth - slip_length) / (face.distance + slip_length));
+}
+template <class T, class Face>
+HOST_DEVICE T no_slip_factor(const WallPairGeometry<T, Face>& pair, Real spacing, T slip_length) {
+  return no_slip_factor(face_between(pair, spacing), slip_length);
 }
 
 }  // namespace slagflow

@@ -23,9 +23,10 @@ struct FluidArrays : ParticleArrays {
       {"increment", "m/s", "xyz: first guess of what the next viscous solve adds to the velocity", kept}};
   ParticleArray<Quad> last_increment{*this, {"last_increment", "m/s", "xyz: what the last one added", kept}};
   ParticleArray<Quad> by_pressure{
+      *this, {"by_pressure", "N/m^3", "xyz: force per volume by pressure in the last step", kept}};
+  ParticleArray<Real> hollow{
       *this,
-      {"by_pressure", "N/m^3, J",
-       "xyz: force per volume by pressure in the last step, w: energy (predictor.hpp)", kept}};
+      {"hollow", "kg/m^3", "what must close between particles that parted before pressure returns", kept}};
   ParticleArray<Real> packing{*this, {"packing", "1", "density at the start over that at rest", kept}};
   ParticleArray<Index> id{
       *this, {"id", "1", "number of the particle, constant through the run", kept | Fate::shown}};
@@ -72,7 +73,7 @@ struct FluidView {
   Index count = 0;
   Span<const Quad> place, motion, by_pressure, state;
   Span<const Quad> middle;  // xyz: [m] whose differences are the directions of viscous forces (viscous.hpp)
-  Span<const Real> pressure, contact;
+  Span<const Real> pressure, contact, hollow;
   Span<const std::uint8_t> fluid;
 };
 
@@ -85,7 +86,7 @@ struct WallView {
 
 inline FluidView view(const FluidArrays& f) {
   return {f.count,        f.place.span(),    f.motion.span(),  f.by_pressure.span(), f.state.span(),
-          f.place.span(), f.pressure.span(), f.contact.span(), f.fluid.span()};
+          f.place.span(), f.pressure.span(), f.contact.span(), f.hollow.span(),      f.fluid.span()};
 }
 
 inline WallView view(const WallArrays& w) {

@@ -60,6 +60,7 @@ struct Totals {
   std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
   std::vector<PlaneState> planes;   // one per SimulationSetup::planes
   std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
+  double impulse_time = 0;          // [s] until which their impulses were gathered: that of the velocities
   std::vector<WallLoad> walls;      // one per SimulationSetup::bodies where SimulationSetup::measure_walls
 };
 

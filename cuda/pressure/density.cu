@@ -12,9 +12,12 @@ namespace {
 struct PairSums {
   Lanes approach = 0;  // of the fluid, relative change of the density [1/s]
   Lanes squeeze = 0;   // by the walls, relative change in the last step
-  Lanes diffusion = 0, shear = 0;
-  Lanes distance = Real(1e30);  // from the nearest wall [m]
+  Lanes diffusion = 0, shear = 0, fill = 0;
+  Lanes nearest_wall = Real(1e30);  // squared distance from a wall particle [m^2]
 };
+
+// Sum V W where particles in disorder leave no voids; 1 on a lattice.
+constexpr Real closed_fill = Real(1.02);
 
 // Particle i as its pairs see it.
 struct Centre {
@@ -23,6 +26,7 @@ struct Centre {
   Real rest_density, viscosity;
   Vec3 by_pressure;  // force per volume
   Real in_tension;   // share of the function for tension in its continuity
+  Real hollow;       // void that it has left behind [kg/m^3]
 };
 
 // Writes the new density excess to `excess` and the shear rate; neighbours still read the old density.
@@ -43,15 +47,27 @@ struct DensityAndShear {
                         kind.rest_density,
                         c.fluid.state[i].y,
                         xyz(c.fluid.by_pressure[i]),
-                        share_in_tension(i, motion.w)};
+                        share_in_tension(i, motion.w),
+                        c.fluid.hollow[i]};
     PairSums sums;
     add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
     const Real denser = moved * total(sums.approach) + total(sums.squeeze);
-    excess[i] =
-        motion.w + (kind.rest_density + motion.w) * denser + moved * c.flow.diffusion * total(sums.diffusion);
+    excess[i] = motion.w - hollow(i, centre, total(sums.fill)) + (kind.rest_density + motion.w) * denser +
+                moved * c.flow.diffusion * total(sums.diffusion);
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
-    contact[i] = contact_pressure(c.flow, kind.rest_density, least(sums.distance));
+    Real from_wall = Real(1e30);
+    if (least(sums.nearest_wall) < square(contact_reach * c.flow.spacing))
+      from_wall = contact_distance(c, i, [&](Vec3 a, Vec3 b) { return box.separation(a, b); });
+    contact[i] = contact_pressure(c.flow, kind.rest_density, from_wall);
+  }
+
+  // What is left of the void of a particle: no more than the places of its neighbours, with the sum V W over
+  // them, leave room for.
+  HOST_DEVICE Real hollow(Index i, const Centre& centre, Real neighbours) const {
+    if (!(centre.hollow > 0)) return 0;
+    const Real fill = neighbours + c.fluid.place[i].w * c.flow.smoothing.value(Real(0));
+    return smaller(centre.hollow, centre.rest_density * larger(Real(0), closed_fill - fill));
   }
 
   HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
@@ -68,6 +84,7 @@ struct DensityAndShear {
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       if (!bits(near)) continue;
       const Lanes volume = select(near, there.w, Lanes(0)), weight = volume * c.flow.smoothing.gradient(r2);
+      if (centre.hollow > 0) sums.fill += volume * c.flow.smoothing.value(r2);
       const Lanes approach = dot(slip, d);
       sums.approach += volume * continuity_slope(centre, r2) * approach;
       const Lanes smooth = (Real(0.5) * inverse_stiffness * c.flow.inverse_gradient_sum) *
@@ -136,6 +153,7 @@ struct DensityAndShear {
       if (!bits(near)) continue;
       const Lanes volume = select(near, Lanes(c.flow.wall_volume), Lanes(0)),
                   weight = volume * c.flow.smoothing.gradient(r2);
+      if (centre.hollow > 0) sums.fill += volume * c.flow.smoothing.value(r2);
       sums.squeeze += volume * continuity_slope(centre, r2) * dot(change, d);
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
@@ -143,19 +161,20 @@ struct DensityAndShear {
       const Lanes noise = diffusing_share(centre, Real(2) * centre.viscosity) * weight * difference;
       sums.diffusion -= select(pressure > -wall_tension_limits(c, j), noise, Lanes(0));
       const WallPairGeometry<Lanes, QuadLanes> pair{d, gather(c.wall.normal, j), gather(c.wall.back, j)};
-      const WallPairGeometry<Lanes, QuadLanes> now{d + half * change, pair.normal, pair.back};
-      sums.distance =
-          smaller(sums.distance, select(near, distance_before(now, c.flow.spacing), sums.distance));
+      const LaneVec3 now = d + half * change;
+      sums.nearest_wall = smaller(sums.nearest_wall, select(near, dot(now, now), sums.nearest_wall));
       sums.shear += volume * c.flow.smoothing.viscous(r2) * wall_strain(pair, other, v);
     }
   }
 
-  // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none.
+  // Each of two fluid particles carries half of what their pair dissipates; a wall particle carries none. Of
+  // what a wall that slips dissipates, the share d_f/(d_f + b) is in the fluid, and shears it.
   HOST_DEVICE Lanes wall_strain(const WallPairGeometry<Lanes, QuadLanes>& pair, const QuadLanes& wall,
                                 LaneVec3 velocity) const {
-    const Lanes stick = no_slip_factor(pair, c.flow.spacing, wall.w);
+    const FaceBetween<Lanes> face = face_between(pair, c.flow.spacing);
+    const Lanes stick = no_slip_factor(face, wall.w), within = face.distance / (face.distance + wall.w);
     const Lanes strain = square(dot(velocity - xyz(wall), pair.fluid_minus_wall));
-    return select(wall.w < Lanes(0), Lanes(0), Real(2) * stick * strain);
+    return select(wall.w < Lanes(0), Lanes(0), (Real(2) * within * stick) * strain);
   }
 };
 
@@ -169,7 +188,7 @@ struct StateFromDensity {
   Span<const std::uint8_t> fluid;
   Span<const Real> excess, shear_rate, packing;
   Span<Quad> place, motion, state;
-  Span<Real> pressure;
+  Span<Real> pressure, hollow;
 
   HOST_DEVICE void operator()(Index i) const {
     const FluidConstants& f = fluids[fluid[i]];
@@ -180,6 +199,7 @@ struct StateFromDensity {
     const Real kept = flow.viscous_tension ? larger(excess[i], -limit / flow.sound_speed_squared) : excess[i];
     const Real p = larger(flow.sound_speed_squared * kept, -limit), volume = f.volume(kept, packing[i]);
     motion[i].w = kept;
+    hollow[i] = kept - excess[i];
     place[i].w = volume;
     pressure[i] = p;
     state[i] = {p, eta, volume, f.mass};
@@ -200,7 +220,7 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
   launch(context, "state", fluid.count,
          StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
                           fluid.packing.span(), fluid.place.span(), fluid.motion.span(), fluid.state.span(),
-                          fluid.pressure.span()});
+                          fluid.pressure.span(), fluid.hollow.span()});
 }
 
 }  // namespace slagflow

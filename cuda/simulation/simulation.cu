@@ -101,7 +101,7 @@ void Simulation::State::upload_fluid() {
   fluids.upload(constants);
   fluid.resize(static_cast<Index>(n));
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
-      fluid.packing.upload(packing), fluid.id.upload(id);
+      fluid.packing.upload(packing), fluid.hollow.upload(std::vector<Real>(n)), fluid.id.upload(id);
   fluid.fluid.upload(p.fluid);
   fluid.increment.upload(std::vector<Quad>(n)), fluid.last_increment.upload(std::vector<Quad>(n));
   fluid.by_pressure.upload(by_pressure);

@@ -21,6 +21,7 @@ Totals Simulation::totals() {
       t.departed[face] += s.departed[kind][face];
       t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
     }
+  t.impulse_time = s.time - 0.5 * s.last_dt;
   if (s.setup.measure_walls)
     for (std::size_t body = 0; body < s.setup.bodies.size(); ++body) {
       t.walls.push_back(s.wall_forces.load(body));

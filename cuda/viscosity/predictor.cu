@@ -102,7 +102,8 @@ struct PredictAndAssemble {
     if (c.capillary.size > 0) acceleration += xyz(c.capillary[i]);
     const Vec3 old = xyz(c.fluid.motion[i]), predicted = old + dt * acceleration;
     const Real rest_density = c.fluids[c.fluid.fluid[i]].rest_density;
-    out.by_pressure[i] = quad(rest_density * by_pressure, dt / 2 * dot(push.given, old + predicted));
+    out.by_pressure[i] = quad(rest_density * by_pressure, 0);
+    out.given[i] = quad(dt * push.given, 0);
     out.predicted[i] = quad(predicted, 0);
     out.wall[i] = wall.block;
     out.diagonal[i] =

@@ -10,8 +10,9 @@ namespace slagflow {
 // What the sweep writes, one entry per fluid particle; weights per pair.
 struct PredictorOutput {
   Span<Quad> predicted;        // xyz: u* [m/s]
-  Span<Quad> by_pressure;      // xyz: force per volume by pressure [N/m^3], w: energy that pairing and walls
-                               // give by pressure in the step [J], beyond what the elastic energy loses
+  Span<Quad> by_pressure;      // xyz: force per volume by pressure [N/m^3]
+  Span<Quad> given;            // xyz: impulse by pressure of pairing and walls [N s], beyond what the elastic
+                               // energy loses
   Span<Real> weight;           // w_ij [kg/m^2], laid out as the fluid list; 0 beyond the support
   Span<Quad> diagonal;         // xyz: diagonal of A, w: mass [kg]
   Span<Symmetric3> wall;       // wall block B [kg]

@@ -80,12 +80,15 @@ struct ExplicitStep {
   }
 };
 
+// An impulse changes the kinetic energy by its product with the mean of the velocities before and after.
+// (With u* for the last, what viscosity takes back at once would count as given, step by step.)
 struct StepEnergy {
   static constexpr int terms = 2;
-  Span<const Quad> state, increment, velocity, by_pressure;
+  Span<const Quad> state, increment, before, velocity, given;
   HOST_DEVICE Terms<2> operator()(Index i) const {
     const Vec3d delta = to_double(xyz(increment[i])), u = to_double(xyz(velocity[i]));
-    return {{-static_cast<double>(state[i].w) * dot(delta, u), static_cast<double>(by_pressure[i].w)}};
+    const Vec3d mean = 0.5 * (to_double(xyz(before[i])) + u);
+    return {{-static_cast<double>(state[i].w) * dot(delta, u), dot(to_double(xyz(given[i])), mean)}};
   }
 };
 
@@ -136,6 +139,7 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
     : context_(c),
       numerics_(numerics),
       middle_(c, "middles of the ways"),
+      given_(c, "impulses of pairing and walls"),
       base_(c, "base of the right hand side"),
       predicted_(c, "predicted velocities"),
       velocity_(c, "solved velocities"),
@@ -150,7 +154,8 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
 void ViscousStep::reserve(Index count, Offset pair_capacity, const RowCells& rows) {
   constexpr Offset margin_percent = 1;
   middle_.resize(count), predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count);
-  right_hand_side_.resize(count), wall_.resize(count), weight_.resize(pair_capacity, margin_percent);
+  given_.resize(count), right_hand_side_.resize(count), wall_.resize(count),
+      weight_.resize(pair_capacity, margin_percent);
   work_.resize(count);
   if (device_loop() && needs_levels_) multigrid_.prepare(rows, count);
 }
@@ -202,8 +207,9 @@ void ViscousStep::find_middle(const Step& step, const FluidArrays& fluid) {
 
 void ViscousStep::assemble(const PairContext& c, const Step& step, FluidArrays& fluid) {
   Section timer(context_, "predictor and assembly");
-  const PredictorOutput out{predicted_.span(), fluid.by_pressure.span(), weight_.span(), diagonal_.span(),
-                            wall_.span(),      right_hand_side_.span()};
+  const PredictorOutput out{predicted_.span(),      fluid.by_pressure.span(), given_.span(),
+                            weight_.span(),         diagonal_.span(),         wall_.span(),
+                            right_hand_side_.span()};
   predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), static_cast<Real>(assembled_share()));
 }
 
@@ -240,7 +246,8 @@ void ViscousStep::add_increment(const Buffer<Quad>& increment) {
 
 void ViscousStep::launch_energy(const FluidArrays& fluid) {
   const Buffer<Quad>& increment = exact_yield_stress() ? fluid.increment : fluid.last_increment;
-  const StepEnergy body{fluid.state.span(), increment.span(), velocity_.span(), fluid.by_pressure.span()};
+  const StepEnergy body{fluid.state.span(), increment.span(), fluid.motion.span(), velocity_.span(),
+                        given_.span()};
   launch_reduction<AddUp>(context_, "energy of the step", fluid.count, if_converged(work_.state(), body),
                           KeepEnergy{record()});
 }

@@ -47,7 +47,7 @@ class ViscousStep {
   StepRecord* record() { return work_.record.span().data; }
   // Leaves in the record what the viscous forces of the step take from the fluid as it moves by u dt,
   // -sum m (u - u*).u, which is what they dissipate less the work of moving walls, and what pairing and walls
-  // give it [J].
+  // give it [J]. Before the particles move.
   void launch_energy(const FluidArrays&);
 
   // Sets the first guess to nothing.
@@ -104,7 +104,7 @@ class ViscousStep {
 
   Context& context_;
   NumericsSetup numerics_;
-  Buffer<Quad> middle_, base_, predicted_, velocity_, diagonal_, right_hand_side_;
+  Buffer<Quad> middle_, given_, base_, predicted_, velocity_, diagonal_, right_hand_side_;
   Buffer<Symmetric3> wall_;
   Buffer<Real> weight_;
   SolverWorkspace work_;

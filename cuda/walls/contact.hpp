@@ -2,7 +2,7 @@
 #pragma once
 
 #include "fluid/lane_math.hpp"
-#include "fluid/params.hpp"
+#include "neighbours/pairs.hpp"
 
 namespace slagflow {
 
@@ -19,19 +19,56 @@ HOST_DEVICE inline Real contact_pressure(const FlowConstants& flow, Real rest_de
   return distance < 0 ? -rest_density * flow.sound_speed_squared * distance / flow.spacing : no_contact;
 }
 
-// Distance of the fluid particle from the part of the surface above the wall particle, or a large number
-// where it does not stand between the two or above. Inside a thin plate the face that is nearer counts.
-template <class T, class Face>  // Real and Quad, or Lanes and QuadLanes
-HOST_DEVICE T distance_before(const WallPairGeometry<T, Face>& pair, Real spacing) {
-  // What a wall particle carries reaches half a spacing aside along each axis. Any further, and a surface
-  // would go on beyond its edge and throw out what falls past it.
-  constexpr Real width = Real(0.51), none = Real(1e30);
-  const Vector3<T> d = pair.fluid_minus_wall;
-  const T height = dot(d, xyz(pair.normal)), front = height - pair.normal.w;
-  const T distance = select(pair.back.w > T(0), larger(front, dot(d, xyz(pair.back)) - pair.back.w), front);
-  const Vector3<T> aside = d - height * xyz(pair.normal);
+// Whether the fluid particle at d from the wall particle stands above it, as seen along a face of the wall.
+// What a wall particle carries reaches half a spacing aside along each axis.
+template <class T>  // Real or Lanes
+HOST_DEVICE auto stands_above(Vector3<T> d, Vector3<T> normal, Real spacing) {
+  constexpr Real width = Real(0.51);
+  const T height = dot(d, normal);
+  const Vector3<T> aside = d - height * normal;
   const T most = larger(larger(magnitude(aside.x), magnitude(aside.y)), magnitude(aside.z));
-  return select((most < T(width * spacing)) & (height > T(0)), distance, T(none));
+  return (most < T(width * spacing)) & (height > T(0));
+}
+
+// What a fluid particle must be nearer to a wall particle than, to be below its surface.
+constexpr Real contact_reach = Real(0.95);  // [spacings]
+
+// Distance of fluid particle i from the nearest face of a wall that it stands before or is below of; a large
+// number where there is none. A wall particle has the normal of one face, at a convex edge it belongs to
+// more: those of other wall particles when each of the two is below the plane of the other, by a quarter of a
+// spacing or more. They bound one body, and only what is below all of them is inside of it. `separation`: of
+// two places.
+template <class Separation>
+HOST_DEVICE Real contact_distance(const PairContext& c, Index i, Separation separation) {
+  const Vec3 x = xyz(c.fluid.place[i]);
+  const Offset first = c.wall_list.row(i);
+  const Index count = c.wall_list.length[i];
+  const auto below = [&](Vec3 from, Quad face) {
+    return !(face.w > 0) || dot(from, xyz(face)) < face.w - Real(0.25) * c.flow.spacing;
+  };
+  Real nearest = Real(1e30);
+  for (Index k = 0; k < count; ++k) {
+    const Index w = c.wall_list.entry[first + k * ListView::stride()];
+    const Vec3 d = separation(x, xyz(c.wall.place[w]));
+    if (dot(d, d) >= square(c.flow.support)) continue;
+    const Quad face = c.wall.normal[w], back = c.wall.back[w];
+    bool above = stands_above(d, xyz(face), c.flow.spacing);
+    Real distance = dot(d, xyz(face)) - face.w;
+    if (back.w > 0) distance = larger(distance, dot(d, xyz(back)) - back.w);
+    for (Index l = 0; l < count && distance < smaller(nearest, Real(0)); ++l) {
+      const Index other = c.wall_list.entry[first + l * ListView::stride()];
+      const Vec3 e = separation(x, xyz(c.wall.place[other]));
+      if (!below(d - e, face) || !below(d - e, back)) continue;
+      const Quad planes[] = {c.wall.normal[other], c.wall.back[other]};
+      for (const Quad plane : planes) {
+        if (!(plane.w > 0) || !below(e - d, plane)) continue;
+        distance = larger(distance, dot(e, xyz(plane)) - plane.w);
+        above = above || stands_above(d, xyz(plane), c.flow.spacing);
+      }
+    }
+    if (above) nearest = smaller(nearest, distance);
+  }
+  return nearest;
 }
 
 }  // namespace slagflow

@@ -28,14 +28,15 @@ std::vector<double> ForceMeasure::update(const MeasureMoment& moment) {
   const Vec3d force = load.pressure + load.viscous;
   const Load now{load.pressure, load.viscous,
                  load.pressure_torque + load.viscous_torque - cross(about_, force)};
-  if (moment.time > time_) {
-    const double per_second = 1 / (moment.time - time_);
+  const double until = moment.totals.impulse_time;
+  if (until > time_) {
+    const double per_second = 1 / (until - time_);
     mean_ = {per_second * (now.pressure - impulse_.pressure), per_second * (now.viscous - impulse_.viscous),
              per_second * (now.torque - impulse_.torque)};
     const double size = norm(mean_.pressure + mean_.viscous);
     if (!(size <= largest_)) largest_ = size, largest_time_ = moment.time;
   }
-  time_ = moment.time, impulse_ = now, work_ = load.work;
+  time_ = until, impulse_ = now, work_ = load.work;
   std::vector<double> values;
   append(values, mean_.pressure), append(values, mean_.viscous), append(values, mean_.torque);
   values.push_back(work_);

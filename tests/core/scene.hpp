@@ -258,23 +258,23 @@ class Scene {
     std::vector<Quad> place, motion, by_pressure, state;
     std::vector<std::uint8_t> kind;
     std::vector<Index> id;
-    std::vector<Real> pressure, packing;
+    std::vector<Real> pressure, packing, hollow;
     for (reference::Particle& p : world.particles) {
       p.x = rounded(p.x), p.v = rounded(p.v), p.excess = rounded(p.excess), p.pressure = rounded(p.pressure);
       p.volume = rounded(p.volume), p.mass = rounded(p.mass), p.viscosity = rounded(p.viscosity);
-      p.by_pressure = rounded(p.by_pressure);
+      p.by_pressure = rounded(p.by_pressure), p.hollow = rounded(p.hollow);
       position.push_back({p.x.x, p.x.y, p.x.z});
       place.push_back(to_device(p.x, p.volume)), motion.push_back(to_device(p.v, p.excess));
       by_pressure.push_back(to_device(p.by_pressure, 0));
       state.push_back(to_device({p.pressure, p.viscosity, p.volume}, p.mass));
-      packing.push_back(static_cast<Real>(p.packing));
+      packing.push_back(static_cast<Real>(p.packing)), hollow.push_back(static_cast<Real>(p.hollow));
       kind.push_back(static_cast<std::uint8_t>(p.fluid)), id.push_back(static_cast<Index>(id.size()));
       pressure.push_back(static_cast<Real>(p.pressure));
     }
     fluid.resize(static_cast<Index>(id.size()));
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
     fluid.packing.upload(packing), fluid.state.upload(state), fluid.fluid.upload(kind), fluid.id.upload(id),
-        fluid.pressure.upload(pressure);
+        fluid.pressure.upload(pressure), fluid.hollow.upload(hollow);
     fluid.by_pressure.upload(by_pressure), fluid.increment.upload(std::vector<Quad>(id.size())),
         fluid.last_increment.upload(std::vector<Quad>(id.size())),
         fluid.shear_rate.upload(std::vector<Real>(id.size()));

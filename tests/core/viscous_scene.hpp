@@ -24,6 +24,7 @@ struct DeviceSystem {
       : middle(s.context, "middle", s.fluid.count),
         predicted(s.context, "predicted", s.fluid.count),
         by_pressure(s.context, "by pressure", s.fluid.count),
+        given(s.context, "given", s.fluid.count),
         diagonal(s.context, "diagonal", s.fluid.count),
         right_hand_side(s.context, "right hand side", s.fluid.count),
         wall(s.context, "walls", s.fluid.count),
@@ -41,7 +42,7 @@ struct DeviceSystem {
     return c;
   }
   PredictorOutput output() {
-    return {predicted.span(), by_pressure.span(), weight.span(),
+    return {predicted.span(), by_pressure.span(), given.span(),          weight.span(),
             diagonal.span(),  wall.span(),        right_hand_side.span()};
   }
   LinearSystem system(const Scene& s) const {
@@ -49,7 +50,7 @@ struct DeviceSystem {
             wall.span(),   right_hand_side.span(), s.box,         s.flow.coupling};
   }
 
-  Buffer<Quad> middle, predicted, by_pressure, diagonal, right_hand_side;
+  Buffer<Quad> middle, predicted, by_pressure, given, diagonal, right_hand_side;
   Buffer<Symmetric3> wall;
   Buffer<Real> weight;
 };
@@ -60,6 +61,7 @@ class HostSystem {
   HostSystem(Scene& s, const DeviceSystem& d)
       : predicted(s.by_id(d.predicted.span())),
         by_pressure(s.by_id(d.by_pressure.span())),
+        given(s.by_id(d.given.span())),
         diagonal(s.by_id(d.diagonal.span())),
         right_hand_side(s.by_id(d.right_hand_side.span())),
         id_(download(s.context, s.fluid.id.span())),
@@ -112,7 +114,7 @@ class HostSystem {
     return static_cast<double>(xyz(diagonal[i / 3])[static_cast<int>(i % 3)]);
   }
 
-  std::vector<Quad> predicted, by_pressure, diagonal, right_hand_side;
+  std::vector<Quad> predicted, by_pressure, given, diagonal, right_hand_side;
 
  private:
   LinearSystem system() const {

@@ -210,7 +210,8 @@ TEST(CaseWalls, AForceIsMeasuredOfAWall) {
       InputError);
 }
 
-// 3 N up during 0.2 s, then 5 N aside, at the point (0, 0, 2).
+// 3 N up during 0.2 s, then 5 N aside, at the point (0, 0, 2). The velocities, and with them the impulses,
+// are half a step behind the lines' times.
 TEST(ForceMeasure, IsTheMeanBetweenLines) {
   Case c =
       parse_case(pool("") + "[[measure]]\nname='load'\ntype='force'\nwall='floor'\nabout=[1, 0, 2]\n", "p");
@@ -220,20 +221,20 @@ TEST(ForceMeasure, IsTheMeanBetweenLines) {
   Totals totals;
   totals.walls.resize(1);
   EXPECT_TRUE(std::isnan(measures.update(0, totals, none).at(0)));
-  totals.walls[0].pressure = {0, 0, 0.6}, totals.walls[0].work = 7;
-  const std::vector<double> first = measures.update(0.2, totals, none);
+  totals.walls[0].pressure = {0, 0, 0.6}, totals.walls[0].work = 7, totals.impulse_time = 0.2;
+  const std::vector<double> first = measures.update(0.21, totals, none);
   EXPECT_DOUBLE_EQ(first[2], 3);
   EXPECT_DOUBLE_EQ(first[7], 3);  // (-1, 0, 0) x (0, 0, 3) = (0, 3, 0)
   EXPECT_DOUBLE_EQ(first[9], 7);
-  totals.walls[0].viscous = {0.5, 0, 0},
+  totals.impulse_time = 0.3, totals.walls[0].viscous = {0.5, 0, 0},
   totals.walls[0].viscous_torque = {0, 1, 0};  // (0, 0, 2) x (0.5, 0, 0)
   Measures resumed(c, setup);
   resumed.restore(measures.state());
-  const std::vector<double> second = measures.update(0.3, totals, none);
+  const std::vector<double> second = measures.update(0.302, totals, none);
   EXPECT_NEAR(second[2], 0, 1e-12);
   EXPECT_DOUBLE_EQ(second[3], 5);
   EXPECT_NEAR(second[7], 0, 1e-12);
-  EXPECT_EQ(resumed.update(0.3, totals, none), second);
+  EXPECT_EQ(resumed.update(0.302, totals, none), second);
   EXPECT_EQ(first.size(), measures.columns().size());
   EXPECT_THAT(measures.columns()[0], "load_pressure_x_N");
   EXPECT_THAT(measures.lines()[0], testing::HasSubstr("on floor, at last (5, 0, 0) N, largest 5 N"));
