@@ -36,7 +36,12 @@ struct Arguments {
   RheometryOptions rheometry;
 };
 
-void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+// Throws Error where stdout does not take it, but where its reader has left: he has read enough.
+void require_written(bool good) {
+  if (!good && errno != EPIPE) throw Error(std::string("cannot write to stdout: ") + std::strerror(errno));
+}
+
+void print(const std::string& text) { require_written(std::fputs(text.c_str(), stdout) >= 0); }
 
 std::string version_text() {
   const Provenance p = build_provenance();
@@ -223,20 +228,13 @@ int dispatch(int argc, const char* const* argv) {
   return check_command->parsed() ? check(arguments) : info(arguments);
 }
 
-// The status, or that of a failure where stdout took not all of the answer. Who stops reading has read
-// enough.
-int written(int status) {
-  errno = 0;
-  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return status;
-  if (errno == EPIPE || errno == 0) return status;
-  throw Error(std::string("cannot write to stdout: ") + std::strerror(errno));
-}
-
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
   try {
-    return written(dispatch(argc, argv));
+    const int status = dispatch(argc, argv);
+    require_written(std::fflush(stdout) == 0);
+    return status;
   } catch (const InputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;

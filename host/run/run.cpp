@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <thread>
 #include <utility>
 
 #include "backend/device.hpp"
@@ -60,6 +61,13 @@ std::string already_there(const RunRecord& run, const Case& c) {
          std::to_string(run.time) + " s; --until SECONDS takes it further";
 }
 
+void warn_of_threads(int threads, Log& log) {
+  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
+  if (cores > 0 && threads > cores)
+    log.warning("--threads " + std::to_string(threads) + ": this machine has " + std::to_string(cores) +
+                " for this program; the others wait for those");
+}
+
 RunOutcome interrupted_before(const std::string& folder) {
   RunOutcome outcome;
   outcome.status = RunStatus::interrupted;
@@ -95,6 +103,7 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   const FolderLock lock(folder);
   clear_folder(folder);
   log.open(folder + "/log.txt");
+  warn_of_threads(options.threads, log);
   for (const std::string& warning : built.warnings) log.warning(warning);
   return Run(std::move(built), folder, log, signals).execute();
 }
@@ -116,6 +125,7 @@ RunOutcome resume_run(const RunOptions& options) {
 
   Log log(options.verbosity);
   log.open(folder + "/log.txt", std::ios::app);
+  warn_of_threads(options.threads, log);
   BuiltCase built = build_setup(c);
   built.setup.time_parts = options.time_parts;
   Run run(std::move(built), folder, log, signals);

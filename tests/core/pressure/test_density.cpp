@@ -131,6 +131,42 @@ TEST_P(Density, ContactMatchesOracle) {
   EXPECT_GT(touching, 5);
 }
 
+// A block of wall particles with its edge at x = z = 5 spacings, each with the normal of the face nearest to
+// it; the one at the edge with that of the one or the other. A particle is as deep as below the nearer face.
+TEST(Contact, AtAConvexEdgeIsThatOfTheNearestFace) {
+  struct Place {
+    double x, z, depth;  // from the edge [spacings]; depth 0: none
+  };
+  const Place places[] = {{-0.4, -0.1, 0.1}, {-0.1, -0.4, 0.1}, {-0.3, -0.3, 0.3}, {-0.05, -0.45, 0.05},
+                          {0.2, -0.4, 0},    {-0.4, 0.2, 0},    {-1.2, -0.2, 0.2}, {0.1, 0.1, 0}};
+  for (const bool sideways : {false, true})
+    for (const Place& at : places) {
+      Scene scene({2, Surroundings::free, 10, 0, 1});
+      const double dx = Scene::spacing, edge = 5 * dx;
+      auto p = scene.world.particles[0];
+      p.x = {edge + at.x * dx, dx / 2, edge + at.z * dx};
+      scene.world.particles = {p};
+      for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) {
+          reference::Wall w;
+          w.x = {edge - (i + 0.5) * dx, dx / 2, edge - (k + 0.5) * dx};
+          const bool side = i < k || (i == k && sideways);
+          w.normal = side ? reference::Vec{1, 0, 0} : reference::Vec{0, 0, 1};
+          w.depth = (side ? i + 0.5 : k + 0.5) * dx;
+          scene.world.walls.push_back(w);
+        }
+      scene.upload();
+      Buffer<Real> scratch(scene.context, "scratch");
+      update_density(scene.context, scene.pairs(), scene.fluid, scratch, 0);
+      const double contact =
+          static_cast<double>(scene.by_id(Span<const Real>(scene.fluid.contact.span()))[0]);
+      const double stiffness = scene.world.kind(p).rest_density * square(scene.world.sound_speed);
+      EXPECT_NEAR(contact, at.depth > 0 ? stiffness * at.depth : -1e30,
+                  at.depth > 0 ? 1e-4 * stiffness : 1e24)
+          << at.x << ", " << at.z;
+    }
+}
+
 TEST_P(Density, StateFollowsFromDensityAndShearRate) {
   for (std::size_t i = 0; i < scene_.world.particles.size(); ++i)
     scene_.world.particles[i].packing = rounded(1 + 0.01 * static_cast<double>(i % 5));
