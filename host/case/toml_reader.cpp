@@ -1,7 +1,9 @@
 #include "host/case/toml_reader.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 #include "backend/error.hpp"
@@ -93,8 +95,29 @@ std::string written_out(const std::string& text, std::size_t point) {
          (no_fraction ? zero : "") + text.substr(fraction, end - fraction);
 }
 
+// Of a line "key = value" with a decimal comma, points between thousands, or a word without quotes; empty for
+// others.
+std::string advice_on_value(const std::string& line) {
+  static const std::regex comma(R"(=\s*([-+]?\d+),(\d+)\s*(#.*)?$)"),
+      word(R"(=\s*([A-Za-z][\w-]*)\s*(#.*)?$)"),
+      thousands(R"(=\s*([-+]?\d{1,3}(,\d{3})+(\.\d*)?)\s*(#.*)?$)");
+  std::smatch found;
+  if (std::regex_search(line, found, thousands)) {
+    std::string plain = found[1];
+    plain.erase(std::remove(plain.begin(), plain.end(), ','), plain.end());
+    return "; no commas in numbers: write " + plain +
+           (found[3].length() == 0 ? ", or with a decimal point" : "");
+  }
+  if (std::regex_search(line, found, comma))
+    return "; a decimal point, not a comma: write " + found[1].str() + "." + found[2].str();
+  if (std::regex_search(line, found, word))
+    return "; words stand in quotes: write \"" + found[1].str() + "\"";
+  return "";
+}
+
 // What to write instead of the first such number outside of strings; empty without one.
 std::string advice(const std::string& line) {
+  if (const std::string better = advice_on_value(line); !better.empty()) return better;
   char quote = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {
     const char c = line[k];
@@ -184,8 +207,10 @@ Toml parse_toml(const std::string& text, const std::string& name) {
   try {
     return parse_stream(text, name);
   } catch (const toml::exception& e) {
+    const std::string line = line_of(text, e.location().line());
+    constexpr std::size_t most_shown = 80;
     throw InputError(name + ":" + std::to_string(e.location().line()) + ": not TOML: " + reason(e.what()) +
-                     advice(line_of(text, e.location().line())));
+                     ", in \"" + line.substr(0, most_shown) + "\"" + advice(line));
   } catch (const std::exception& e) {
     throw InputError(name + ": not TOML: " + reason(e.what()));
   }

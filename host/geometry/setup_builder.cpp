@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "backend/error.hpp"
+#include "host/case/toml_reader.hpp"
 #include "host/geometry/geometry.hpp"
 #include "host/geometry/settling.hpp"
 
@@ -39,6 +40,15 @@ void warn_of_unused_fluids(const Case& c, std::vector<std::string>& warnings) {
     if (std::none_of(c.regions.begin(), c.regions.end(), has_it))
       warnings.push_back("fluid '" + c.fluids[f].name + "' is in no region: the case does not use it");
   }
+}
+
+// Slags, metals and oils are heavier than that.
+void warn_of_light_fluids(const Case& c, std::vector<std::string>& warnings) {
+  constexpr double light = 100;  // [kg/m^3]
+  for (const FluidSpec& fluid : c.fluids)
+    if (fluid.density < light)
+      warnings.push_back("fluid '" + fluid.name + "': a density of " + show(fluid.density) +
+                         " kg/m^3; is it meant in g/cm^3? Then density = " + show(1000 * fluid.density));
 }
 
 // A drop at rest is stirred by the pull between its unevenly spaced particles: at this number of 0.3, 0.1,
@@ -134,6 +144,7 @@ BuiltCase build_setup(const Case& c) {
   setup.limits = built.resolved.limits;
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
   warn_of_unused_fluids(c, built.warnings);
+  warn_of_light_fluids(c, built.warnings);
   warn_of_fast_walls(wall_speeds, setup, built.warnings);
   return built;
 }

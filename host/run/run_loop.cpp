@@ -1,7 +1,9 @@
 #include "host/run/run_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <utility>
@@ -254,6 +256,7 @@ void Run::end_outputs() {
   record();
   take_snapshot();
   losses_.look_at_all(*simulation_);
+  thin_sheets_.look(simulation_->totals(), simulation_->time());  // also where the last line was there before
   snapshots_->close();
   provenance_.ended_utc = now_utc();
   snapshots_->describe(provenance_.attributes());
@@ -268,8 +271,10 @@ void Run::tell_compression() {
   outcome_.results.push_back(line);
   if (largest.value <= much) return;
   const double sound_speed = built_.resolved.numerics.sound_speed;
+  std::array<char, 40> now{};
+  std::snprintf(now.data(), now.size(), "%.4g", sound_speed);
   log_.warning(line + ": too much for a fluid that is to be incompressible; numerics.sound_speed = " +
-               show(stiff_enough(sound_speed, largest.value, much)) + " m/s (it is " + show(sound_speed) +
+               show(stiff_enough(sound_speed, largest.value, much)) + " m/s (it is " + now.data() +
                ") keeps it below " + show(much));
 }
 

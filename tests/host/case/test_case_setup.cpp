@@ -7,6 +7,7 @@
 #include "backend/error.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/geometry_cases.hpp"
+#include "host/tiny_case.hpp"
 
 namespace slagflow {
 namespace {
@@ -66,6 +67,15 @@ TEST(SetupBuilder, WarnsOfAFluidThatNoRegionUses) {
   c.fluids.push_back(c.fluids[0]);
   c.fluids[1].name = "oil";
   EXPECT_THAT(build_setup(c).warnings, testing::Contains(testing::HasSubstr("fluid 'oil' is in no region")));
+}
+
+TEST(Setup, WarnsOfADensityInGramsPerCubicCentimetre) {
+  const auto warnings = [](const std::string& density) {
+    return build_setup(parse_case(testing_tools::tiny_case(), "t", {"fluid.oil.density=" + density}))
+        .warnings;
+  };
+  EXPECT_THAT(warnings("2.7"), testing::Contains(testing::HasSubstr("meant in g/cm^3? Then density = 2700")));
+  EXPECT_THAT(warnings("965"), testing::Not(testing::Contains(testing::HasSubstr("g/cm^3"))));
 }
 
 // eta/sqrt(rho sigma spacing), spacing 1.
