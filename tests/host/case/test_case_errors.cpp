@@ -66,9 +66,7 @@ struct Wrong {
   std::string replacement;
   std::vector<std::string> fragments;
 };
-
 const std::vector<Wrong> wrong_cases{
-    // Syntax
     {2, "name = ", {"case.toml:2: not TOML"}},
     {2, "name = 'a", {"case.toml:2: not TOML"}},
     {8, "density = 965\ndensity = 966", {"case.toml:9: not TOML", "density"}},
@@ -79,7 +77,6 @@ const std::vector<Wrong> wrong_cases{
     {8, "density = .5", {"case.toml:8: not TOML", "write 0.5"}},
     {8, "density = -5.e-3 # 5.", {"case.toml:8: not TOML", "write -5.0e-3"}},
     {2, "name = 'a'\nx = " + std::string(300, '['), {"case.toml:3: brackets nested deeper"}},
-    // Unknown keys and tables
     {8,
      "densty = 965",
      {"case.toml:8: key 'fluid.slag.densty': unknown: did you mean 'density'?",

@@ -69,7 +69,7 @@ TEST(SetupBuilder, WarnsOfAFluidThatNoRegionUses) {
   EXPECT_THAT(build_setup(c).warnings, testing::Contains(testing::HasSubstr("fluid 'oil' is in no region")));
 }
 
-TEST(Setup, WarnsOfADensityInGramsPerCubicCentimetre) {
+TEST(SetupBuilder, WarnsOfADensityInGramsPerCubicCentimetre) {
   const auto warnings = [](const std::string& density) {
     return build_setup(parse_case(testing_tools::tiny_case(), "t", {"fluid.oil.density=" + density}))
         .warnings;
