@@ -308,7 +308,9 @@ inline bool stands_above(const World& w, Vec d, Vec normal) {
   return dot(d, normal) > 0 && most < 0.51 * w.spacing;
 }
 inline double contact_pressure(const World& w, std::size_t i) {
-  double nearest = 1e30;
+  double nearest = 1e30, closest = 1e30;
+  for_wall_pairs(w, i, [&](const Wall&, Vec d) { closest = std::min(closest, length(d)); });
+  if (closest >= 0.95 * w.spacing) return -1e30;
   const auto below = [&](Vec from, const WallFace& f) {
     return dot(from, f.normal) < f.depth - 0.25 * w.spacing;
   };
@@ -318,10 +320,12 @@ inline double contact_pressure(const World& w, std::size_t i) {
     double distance = -1e30;
     for (const WallFace& f : own) distance = std::max(distance, dot(d, f.normal) - f.depth);
     const auto partner = [&](const Wall& k, Vec e) {
-      for (const WallFace& f : own)
-        if (!below(d - e, f)) return;
+      const Vec own_foot = j.depth * j.normal + (e - d);  // seen from the other wall particle
       for (const WallFace& f : faces_of(k)) {
-        if (!below(e - d, f)) continue;
+        bool one_body = below(own_foot, f);
+        for (const WallFace& own_face : own)
+          one_body = one_body && below(d - e + f.depth * f.normal, own_face);
+        if (!one_body) continue;
         distance = std::max(distance, dot(e, f.normal) - f.depth);
         above = above || stands_above(w, d, f.normal);
       }
@@ -329,12 +333,9 @@ inline double contact_pressure(const World& w, std::size_t i) {
     for_wall_pairs(w, i, partner, 1.1);
     if (above) nearest = std::min(nearest, distance);
   });
-  double closest = 1e30;
-  for_wall_pairs(w, i, [&](const Wall&, Vec d) { closest = std::min(closest, length(d)); });
-  const double distance = closest < 0.95 * w.spacing ? nearest : 1e30;
   const Particle& p = w.particles[i];
   const double stiffness = w.kind(p).rest_density * w.sound_speed * w.sound_speed;
-  return distance < 0 ? -stiffness * distance / w.spacing : -1e30;
+  return nearest < 0 ? -stiffness * nearest / w.spacing : -1e30;
 }
 
 // Pressure that a wall particle takes from the fluid in reach.

@@ -35,9 +35,10 @@ constexpr Real contact_reach = Real(0.95);  // [spacings]
 
 // Distance of fluid particle i from the nearest face of a wall that it stands before or is below of; a large
 // number where there is none. A wall particle has the normal of one face, at a convex edge it belongs to
-// more: those of other wall particles when each of the two is below the plane of the other, by a quarter of a
-// spacing or more. They bound one body, and only what is below all of them is inside of it. `separation`: of
-// two places.
+// more: those of other wall particles, when the part of the surface above each of the two lies below the
+// plane of the other by a quarter of a spacing or more. They bound one body, and only what is below all of
+// them is inside of it. (In a concave corner what is deep in the wall has planes of its own, which all pass
+// through the corner.) `separation`: of two places.
 template <class Separation>
 HOST_DEVICE Real contact_distance(const PairContext& c, Index i, Separation separation) {
   const Vec3 x = xyz(c.fluid.place[i]);
@@ -58,10 +59,11 @@ HOST_DEVICE Real contact_distance(const PairContext& c, Index i, Separation sepa
     for (Index l = 0; l < count && distance < smaller(nearest, Real(0)); ++l) {
       const Index other = c.wall_list.entry[first + l * ListView::stride()];
       const Vec3 e = separation(x, xyz(c.wall.place[other]));
-      if (!below(d - e, face) || !below(d - e, back)) continue;
+      const Vec3 own_foot = face.w * xyz(face) + (e - d);  // seen from the other wall particle
       const Quad planes[] = {c.wall.normal[other], c.wall.back[other]};
       for (const Quad plane : planes) {
-        if (!(plane.w > 0) || !below(e - d, plane)) continue;
+        const Vec3 foot = plane.w * xyz(plane) + (d - e);  // seen from this one
+        if (!(plane.w > 0) || !below(foot, face) || !below(foot, back) || !below(own_foot, plane)) continue;
         distance = larger(distance, dot(e, xyz(plane)) - plane.w);
         above = above || stands_above(d, xyz(plane), c.flow.spacing);
       }
