@@ -225,9 +225,11 @@ inline Sum density_change(const World& w, std::size_t i, double dt) {
 // for.
 inline double hollow_left(const World& w, std::size_t i, double dt) {
   const Particle& p = w.particles[i];
-  double fill = p.volume * w.smoothing().value(0);
+  if (!(p.hollow > 0)) return 0;
+  const SmoothingFunction smoothing = w.smoothing();
+  double fill = p.volume * smoothing.value(0);
   auto pair = [&](Vec half_way, double volume) {
-    if (length(half_way) < w.support) fill += volume * w.smoothing().value(length(half_way));
+    if (length(half_way) < w.support) fill += volume * smoothing.value(length(half_way));
   };
   for_fluid_pairs(
       w, i, [&](const Particle& j, Vec d) { pair(d - 0.5 * dt * (p.v - j.v), j.volume); }, reach_before);
