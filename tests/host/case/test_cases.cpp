@@ -37,9 +37,11 @@ TEST(Cases, EveryFileLoadsBuildsAsItsCommentSaysAndWritesItselfBack) {
     EXPECT_FALSE(c.description.empty());
     const BuiltCase built = build_setup(c);
     EXPECT_GT(built.setup.numerics.sound_speed, 0);
-    // Two may lose pressure as they settle: the more of it, the more noise.
-    EXPECT_THAT(built.warnings,
-                testing::Each(testing::HasSubstr("fills a closed space, and loses about 24 Pa")));
+    // Two may lose pressure as they settle: the more of it, the more noise. One is there for what its walls
+    // do.
+    const char* expected =
+        c.name == "off_lattice" ? "spacings off the lattice" : "fills a closed space, and loses about 24 Pa";
+    EXPECT_THAT(built.warnings, testing::Each(testing::HasSubstr(expected)));
     if (const auto count = counts.find(c.name); count != counts.end()) {
       EXPECT_EQ(built.setup.particles.position.size(), count->second);
       ++counted;
