@@ -122,7 +122,8 @@ double WallDepth::of(Vec3d p) const {
     nearest = depth;
     found = true;
   }
-  return found ? nearest : to_the_open(p);
+  // The open behind the nearest corner may be nearer than that behind any face.
+  return found ? std::min(nearest, over_faces(p)) : to_the_open(p);
 }
 
 }  // namespace slagflow

@@ -33,6 +33,14 @@ TEST(WallDepth, BehindAConcaveCornerIsTheWayToTheCorner) {
   EXPECT_NEAR(pot.of({5 + 4.4 * std::cos(0.4), 5 + 4.4 * std::sin(0.4), 1.7}), 0.5, 2e-3);
 }
 
+// The open below the floor is two spacings away, that in the corner next to the place.
+TEST(WallDepth, InAConcaveCornerOfThinWallsIsTheWayToTheCorner) {
+  const WallDepth angle(
+      with_walls({wall("floor", {box({1, 1, 2}, {9, 9, 4})}), wall("side", {box({1, 1, 2}, {3, 9, 9})})}));
+  EXPECT_NEAR(angle.of({2.97, 5, 3.96}), 0.05, 3e-3);
+  EXPECT_NEAR(angle.of({1.1, 5, 3.96}), 0.1, 1e-12);
+}
+
 TEST(WallDepth, IsZeroBesideALip) {
   const WallDepth depth(with_walls({wall("block", {box({-20, -20, -20}, {5, 30, 5})})}));
   for (const Vec3d p : {Vec3d{4.4, 5, 5.05}, Vec3d{5.05, 5, 4.4}, Vec3d{5.1, 5, 5.1}, Vec3d{1, 5, 5.2}})
