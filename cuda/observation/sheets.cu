@@ -46,41 +46,58 @@ struct Pairs {
 template <class Box>
 struct SeenThickness {
   Pairs<Box> pairs;
+  Real most;   // [m] that can be told
+  Real crowd;  // particles within the support radius of one that is not in a thin sheet
   Span<Real> seen;
 
   // Of the places of the particle and its neighbours about their mean.
-  HOST_DEVICE Symmetric3 spread(Index i) const {
+  struct Spread {
+    Symmetric3 about_mean;
+    Real count;
+  };
+  HOST_DEVICE Spread spread(Index i) const {
     LaneVec3 sum;
     SymmetricMatrix3<Lanes> squares;
-    Lanes count = 0;
+    Lanes count = 1;
     pairs.each(i, [&](LaneVec3 d, LaneMask near, const Index*) {
       const Lanes one = select(near, Lanes(1), Lanes(0));
       sum += one * d, count += one;
       squares.add_outer(one, d);
     });
-    Symmetric3 all = total(squares);
-    all.add_outer(-1 / (total(count) + 1), total(sum));
-    if (pairs.c.flow.dimensions == 2) all.yy = 2 * (all.xx + all.zz);  // not the axis across the plane
+    Spread all{total(squares), total(count) - Real(lane_count - 1)};
+    all.about_mean.add_outer(-1 / all.count, total(sum));
+    if (pairs.c.flow.dimensions == 2)  // not the axis across the plane
+      all.about_mean.yy = 2 * (all.about_mean.xx + all.about_mean.zz);
     return all;
   }
 
   HOST_DEVICE void operator()(Index i) const {
-    const LaneVec3 axis = in_lanes(least_axis(spread(i)));
+    const Spread all = spread(i);
+    if (all.count >= crowd) {
+      seen[i] = most;
+      return;
+    }
+    const LaneVec3 axis = in_lanes(least_axis(all.about_mean));
     Lanes low = 0, high = 0;
     pairs.each(i, [&](LaneVec3 d, LaneMask near, const Index*) {
       const Lanes along = select(near, dot(d, axis), Lanes(0));
       low = smaller(low, along), high = smaller(high, Lanes(0) - along);
     });
-    seen[i] = pairs.c.flow.spacing - least(low) - least(high);
+    seen[i] = smaller(most, pairs.c.flow.spacing - least(low) - least(high));
   }
 };
 
 template <class Box>
 struct LargestSeen {
   Pairs<Box> pairs;
+  Real most_told;  // [m]
   Span<const Real> seen;
   Span<Real> thickness;
   HOST_DEVICE void operator()(Index i) const {
+    if (seen[i] >= most_told) {
+      thickness[i] = seen[i];
+      return;
+    }
     Lanes most = -seen[i];
     pairs.each(i, [&](LaneVec3, LaneMask near, const Index* j) {
       most = smaller(most, select(near, Lanes(0) - gather(seen, j), most));
@@ -115,10 +132,16 @@ SheetThickness::SheetThickness(Context& c)
 const Buffer<Real>& SheetThickness::measure(const PairContext& c) {
   const Index n = c.fluid.count;
   seen_.resize(n), thickness_.resize(n);
+  // In the middle of three layers of a lattice a particle sees 63 of the 81 that it sees inside; their volume
+  // asks for 73.6.
+  constexpr double told = 4.5, share = 0.93, pi = 3.14159265358979;
+  const double radius = static_cast<double>(c.flow.support / c.flow.spacing);
+  const double inside = c.flow.dimensions == 2 ? pi * square(radius) : 4.0 / 3 * pi * radius * square(radius);
+  const auto most = static_cast<Real>(told) * c.flow.spacing, crowd = static_cast<Real>(share * inside);
   auto sweep = [&](auto box) {
     using Box = decltype(box);
-    launch(context_, "thickness seen", n, SeenThickness<Box>{{c, box}, seen_.span()});
-    launch(context_, "sheet thickness", n, LargestSeen<Box>{{c, box}, seen_.span(), thickness_.span()});
+    launch(context_, "thickness seen", n, SeenThickness<Box>{{c, box}, most, crowd, seen_.span()});
+    launch(context_, "sheet thickness", n, LargestSeen<Box>{{c, box}, most, seen_.span(), thickness_.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
   return thickness_;

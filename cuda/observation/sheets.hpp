@@ -11,7 +11,7 @@ constexpr double thin_sheet = 2.75;
 
 // A particle sees, within the support radius, fluid over some length along the direction in which that varies
 // least; with a spacing on top that is the thickness of its sheet, thread or drop. Near a surface of thick
-// fluid it sees too little: the largest that it and its neighbours see is taken. Tells up to some four
+// fluid it sees too little: the largest that it and its neighbours see is taken. Tells up to 4.5
 // spacings, and of what is thicker no more than that. Walls do not count as fluid.
 class SheetThickness {
  public:

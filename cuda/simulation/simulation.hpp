@@ -39,7 +39,7 @@ void describe(Visitor& v, const FluidSnapshot& s) {
   v("Viscosity", "Pa s", "dynamic viscosity", s.viscosity);
   v("ShearRate", "1/s", "shear rate", s.shear_rate);
   v("ShearStress", "Pa", "magnitude of the viscous stress", s.shear_stress);
-  v("SheetThickness", "m", "thickness of the sheet, thread or drop, up to some four spacings", s.thickness);
+  v("SheetThickness", "m", "thickness of the sheet, thread or drop, up to 4.5 spacings", s.thickness);
   v("Yielded", "1", "1 where the stress exceeds the yield stress", s.yielded);
   v("Fluid", "1", "index of the fluid, in the order of the case", s.fluid);
   v("ParticleId", "1", "number of the particle, constant through the run", s.id);
