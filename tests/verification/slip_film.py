@@ -1,4 +1,5 @@
-"""A Bingham film that slips on its slope: the friction of the slip is no shear of the fluid, whose viscosity it would lower."""
+"""A Bingham film that slips on its slope: the friction of the slip is no shear of the fluid, whose viscosity it would lower.
+The error is of first order: targets of 20 % and 10 % with six and twelve rows that are sheared."""
 
 import numpy as np
 
@@ -31,7 +32,8 @@ def mean_speed(result, top):
 
 
 def rows(results):
-    return [relative_row(result.resolution, quantity, mean_speed(result, top), float(exact(result, z)), 0.15)
+    return [relative_row(result.resolution, quantity, mean_speed(result, top), float(exact(result, z)),
+                         200 * result.spacing)
             for result in results
             for quantity, top, z in (("speed of the surface [m/s]", True, THICKNESS),
                                      ("speed of the lowest row [m/s]", False, 0.5 * result.spacing))]
