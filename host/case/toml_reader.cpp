@@ -117,7 +117,7 @@ std::string advice_on_value(const std::string& line) {
 
 // What to write instead of the first such number outside of strings; empty without one.
 std::string advice(const std::string& line) {
-  if (const std::string better = advice_on_value(line); !better.empty()) return better;
+  if (std::string better = advice_on_value(line); !better.empty()) return better;
   char quote = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {
     const char c = line[k];
