@@ -21,16 +21,17 @@ HOST_DEVICE inline Real contact_pressure(const FlowConstants& flow, Real rest_de
 
 // Whether the fluid particle at d from the wall particle stands above it, as seen along a face of the wall.
 // What a wall particle carries reaches half a spacing aside along each axis.
-template <class T>  // Real or Lanes
-HOST_DEVICE auto stands_above(Vector3<T> d, Vector3<T> normal, Real spacing) {
+HOST_DEVICE inline bool stands_above(Vec3 d, Vec3 normal, Real spacing) {
   constexpr Real width = Real(0.51);
-  const T height = dot(d, normal);
-  const Vector3<T> aside = d - height * normal;
-  const T most = larger(larger(magnitude(aside.x), magnitude(aside.y)), magnitude(aside.z));
-  return (most < T(width * spacing)) & (height > T(0));
+  const Real height = dot(d, normal);
+  const Vec3 aside = d - height * normal;
+  const Real most = larger(larger(magnitude(aside.x), magnitude(aside.y)), magnitude(aside.z));
+  return most < width * spacing && height > 0;
 }
 
-// What a fluid particle must be nearer to a wall particle than, to be below its surface.
+// What a fluid particle must be nearer to a wall particle than, to be below its surface: one at the surface,
+// in the middle between four wall particles half a spacing deep, has them 0.88 spacings away. (Fluid at rest
+// has 1.)
 constexpr Real contact_reach = Real(0.95);  // [spacings]
 
 // Distance of fluid particle i from the nearest face of a wall that it stands before or is below of; a large
