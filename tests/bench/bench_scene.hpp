@@ -104,7 +104,7 @@ class Scene {
     fluid.resize(static_cast<Index>(n));
     fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion);
     fluid.id.upload(id), fluid.fluid.upload(p.fluid);
-    fluid.packing.upload(std::vector<Real>(n, Real(1)));
+    fluid.packing.upload(std::vector<Real>(n, Real(1))), fluid.hollow.upload(std::vector<Real>(n));
     fluid.last_increment.upload(std::vector<Quad>(n)), fluid.by_pressure.upload(std::vector<Quad>(n));
     fluid.increment.upload(std::vector<Quad>(n)), fluid.state.upload(std::vector<Quad>(n));
     fluid.pressure.upload(std::vector<Real>(n)), fluid.shear_rate.upload(std::vector<Real>(n));
