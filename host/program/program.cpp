@@ -173,6 +173,9 @@ CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
         std::tuple{"--full-scale-torque", &facts.full_scale_torque, "where torque is in per cent [N m]"},
         std::tuple{"--density", &facts.density, "of the fluid [kg/m^3]"}})
     command->add_option(name, *fact, what)->check(above_zero);
+  command->add_option("--spindle", facts.spindle, "of Brookfield: LV-1 to LV-4, RV-1 to RV-7");
+  command->add_option("--table", facts.table, "take this one of several tables in the file, from 1")
+      ->check(CLI::Range(1, 10000));
   command->add_option("--name", facts.name, "of the fluid (default: the name of the file)");
   command->add_option("--growth-exponent", options.growth_exponent, "m of the fluid's table [s]")
       ->check(above_zero);

@@ -111,6 +111,10 @@ void add_fit_warnings(RheometryResult& result, const RheometryOptions& options) 
     warnings.push_back(options.file + ": " +
                        print("the interval of the yield stress, %.4g to %.4g Pa, reaches 0",
                              best.yield_stress.low, best.yield_stress.high));
+  if (result.measured.facts.spindle && best.model != FlowModel::newtonian)
+    warnings.push_back(
+        options.file + ": the maker's factor of spindle " + *result.measured.facts.spindle +
+        " is for Newtonian fluids; yield stress and index are as of a cylinder in a wide vessel");
   for (const FlowModel model : flow_models)
     if (!options.model && result.measured.curve.rate.size() < static_cast<std::size_t>(points_needed(model)))
       warnings.push_back(options.file + ": " +
@@ -157,13 +161,31 @@ RheometryResult analyse(const RheometryOptions& options) {
   return result;
 }
 
+namespace {
+
+// Stress over the rate of a Newtonian fluid, the least and the largest.
+std::string viscosities(const FlowCurve& curve) {
+  double least = 1e300, most = 0;
+  for (std::size_t k = 0; k < curve.rate.size(); ++k) {
+    const double viscosity = curve.stress[k] / curve.cylinders->nominal_rate(curve.rate[k]);
+    least = std::min(least, viscosity), most = std::max(most, viscosity);
+  }
+  return print("%.4g to %.4g Pa s", least, most);
+}
+
+}  // namespace
+
 std::string to_text(const RheometryResult& result) {
   const FlowCurve& curve = result.measured.curve;
-  std::string text = std::to_string(curve.rate.size()) + " points, ";
+  const SampleFacts& facts = result.measured.facts;
+  std::string text =
+      "read as " + result.measured.how + "\n" + std::to_string(curve.rate.size()) + " points, ";
   const char* const unit = curve.cylinders ? "rad/s" : "1/s";
   text += print("%.4g to %.4g %s, %.4g to %.4g Pa", curve.rate.front(), curve.rate.back(), unit,
                 curve.stress.front(), curve.stress.back());
-  if (const auto& c = curve.cylinders)
+  if (facts.spindle)
+    text += " at spindle " + *facts.spindle + " of Brookfield, apparent viscosities " + viscosities(curve);
+  else if (const auto& c = curve.cylinders)
     text += print(" at the bob of %.4g mm in a cup of %.4g mm, exact for the gap", 1e3 * c->bob_radius,
                   1e3 * c->cup_radius);
   text += "\nfits with 95 % intervals, best first:\n";

@@ -1,12 +1,13 @@
-// Reads what a viscometer measured.
-//
-// A CSV file: comment lines begin with # and may hold `key = value`; the first other line names the columns,
-// each with its unit; then a line of numbers for each point. Comma, semicolon or tab separate.
-//   columns   shear_rate_1/s or _1/min, and shear_stress_Pa, _mPa or _kPa
-//        or   rotation_rpm, _rad/s or _1/s, and torque_Nm, _mNm, _uNm or _percent
-//   keys      bob_radius_m or _mm, cup_radius_m or _mm, height_m or _mm: with rotation
-//             full_scale_torque_Nm, _mNm or _uNm: with torque_percent
-//             density_kg/m3 or _g/cm3, name: for the [fluid] table
+// Reads what a viscometer measured: tables of text with a line of names, such as
+//   # density_kg/m3 = 2600
+//   shear_rate_1/s,shear_stress_Pa
+//   1,4.56
+// and what makers' programs and spreadsheets export. Columns: a pair of shear rate, shear stress and
+// viscosity; or rotation with torque, or with viscosity and a spindle. Keys, `# key = value`:
+//   bob_radius_m, cup_radius_m, height_m    with rotation and torque; or a spindle
+//   full_scale_torque_Nm                    with torque_percent
+//   decimal                                 point or comma
+//   density_kg/m3, name                     for the [fluid] table
 #pragma once
 
 #include <optional>
@@ -23,11 +24,14 @@ struct SampleFacts {
   std::optional<double> full_scale_torque;               // [N m]
   std::optional<double> density;                         // [kg/m^3]
   std::optional<std::string> name;
+  std::optional<std::string> spindle;  // of Brookfield
+  std::optional<int> table;            // from 1: only this one of several in the file
 };
 
 struct Measurements {
   FlowCurve curve;  // in ascending order of the rate
   SampleFacts facts;
+  std::string how;  // it was read: encoding, signs, lines, columns and units
   std::vector<std::string> warnings;
 };
 

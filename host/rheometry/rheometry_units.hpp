@@ -1,7 +1,7 @@
 // The quantities of a viscometer's file, the units they may have, and what values are believable.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,18 +9,14 @@ namespace slagflow {
 
 struct UnitInfo {
   const char* name;
-  double factor;  // to the SI unit
-};
-
-struct QuantityInfo {
-  const char* name;
-  std::vector<UnitInfo> units;  // the SI unit first
-  double least, most;           // [SI unit] believable values: least < value <= most
+  double factor;               // to the SI unit
+  const char* spellings = "";  // further ones, as plain_unit gives them, a blank between
 };
 
 enum class Quantity {
   shear_rate,
   shear_stress,
+  viscosity,
   rotation,
   torque,
   bob_radius,
@@ -30,19 +26,48 @@ enum class Quantity {
   density
 };
 
+struct QuantityInfo {
+  Quantity quantity;
+  const char* name;
+  std::vector<UnitInfo> units;  // the SI unit first
+  double least, most;           // [SI unit] believable values: least < value <= most
+};
+
+inline constexpr const char* percent_unit = "percent";
+
 // In the order of Quantity.
 const std::vector<QuantityInfo>& quantities();
 inline const QuantityInfo& info(Quantity q) { return quantities()[static_cast<std::size_t>(q)]; }
 
-// What a name like `shear_stress_Pa` says.
+// Columns have these, the others are facts of the whole file.
+inline bool is_measured(Quantity q) { return q <= Quantity::torque; }
+
+// A unit's text in one of its many forms: without brackets, blanks and signs of products and powers, u for
+// micro. `[mPa·s]` gives mPas, `s^-1` and `s⁻¹` give s-1.
+std::string plain_unit(const std::string& text);
+
+// The unit of a quantity, or nothing. Letters may be of the other case where that is no other unit: mpa.s is
+// mPa s, but MPA.S may be mPa s or MPa s and is nothing.
+const UnitInfo* find_unit(Quantity q, const std::string& text);
+
+// A unit of any quantity, of those not in the table too, such as temperature and time.
+bool is_unit(const std::string& text);
+
+// What a name like `shear_stress_Pa`, `Shear Stress [Pa]` or `Tau in Pa` says.
 struct NamedQuantity {
   bool known = false;       // the quantity is
   bool unit_known = false;  // and the unit is
   bool percent = false;     // torque in per cent of full scale
+  bool weak = false;        // a short name such as n or M that means this with a fitting unit alone
+  bool angular = false;     // a rotation named as an angle: its 1/s would be rad/s
   Quantity quantity{};
   double factor = 1;
+  std::string unit;  // as the table of units names it
 };
 NamedQuantity parse_name(const std::string& name);
+
+// The same with a unit from elsewhere, as from a row below the names.
+NamedQuantity with_unit(NamedQuantity named, const std::string& unit);
 
 // "shear_stress_Pa, shear_stress_mPa, shear_stress_kPa"
 std::string names_of(Quantity q);
