@@ -32,9 +32,11 @@ oil = "A"
 fraction = 0.5
 """
 
-# A program that stands for slagflow: fails for oil B, else leaves what a run leaves.
+# A program that stands for slagflow: refuses a fraction of 0.9, fails for oil B, else leaves what a run leaves.
 PROGRAM = """#!/usr/bin/python3
 import json, pathlib, sys
+if sys.argv[1] == "check":
+    sys.exit("error: base.toml: value 0.9 is out of range" * ("--set=fluid.oil.fraction=0.9" in sys.argv) or 0)
 folder = pathlib.Path(sys.argv[sys.argv.index("-o") + 1])
 with open(folder.parent.parent.parent / "calls", "a") as calls:
     calls.write(" ".join(sys.argv[1:]) + "\\n")
@@ -82,7 +84,13 @@ class Sweep(unittest.TestCase):
         self.assertIn("fall.toml", self.error("[sweep]", "[sweep"))
         for wrong in ("0.5", '"0.5"', "{low = 0.5}"):
             self.assertIn("key 'axis.1.values': value", self.error("[0.0, 0.5]", wrong))
-        self.assertIn("allowed: numbers, texts", self.error("[0.0, 0.5]", "[2020-01-01]"))
+        self.assertIn("allowed: finite numbers, texts", self.error("[0.0, 0.5]", "[2020-01-01]"))
+        self.assertIn("allowed: finite numbers", self.error("0.0, 0.5]", "nan]"))
+        self.assertIn("`points`, each with a name", self.error("[0.0, 0.5]", '["a/b"]'))
+        self.assertIn("values none: allowed: at least one", self.error("[0.0, 0.5]", "[]"))
+        self.assertIn("axes 'oil' and 'viscosity' both set", self.error('"fluid.oil.fraction"', '"fluid.oil.viscosity"'))
+        self.assertIn("key 'sweep.threads': value True", self.error("[set]", "threads = true\n[set]"))
+        self.assertIn("key 'sweep.case': value 3: allowed: a case file", self.error('"base.toml"', "3"))
         self.assertIn("key 'axis.1.key': value 3: allowed: a dotted key", self.error('"fluid.oil.fraction"', "3"))
         self.assertIn("key 'exclude': value", self.error("[[exclude]]", "[exclude]"))
         self.file.write_bytes(b"\xff" + SWEEP.encode())
@@ -96,43 +104,105 @@ class Sweep(unittest.TestCase):
             (point / "run").mkdir(parents=True)
             (point / "result.json").write_text(json.dumps({"axes": {"oil": name}, "status": status, "reason": "x" * (status == "failed")}))
         run = self.folder / "points/p1/run"
-        (run / "summary.json").write_text(json.dumps({"steps": 7, "measures": {"jet": {"class": "free-jet", "tan_theta": None}}}))
+        (run / "summary.json").write_text(json.dumps({"steps": 7, "measures": {"jet": {"class": "free-jet", "tan_theta": None, "torque": [1, 2, 3.5]}}}))
         (run / "case.toml").write_text("[fluid.oil]\ndensity = 900.0\n")
-        gather.gather({"points": ["p1", "p2", "p3"]}, self.folder)
+        gather.gather({"points": {name: {"axes": {"oil": name}} for name in ("p1", "p2", "p3")}}, self.folder)
         with open(self.folder / "results.csv", newline="") as file:
             lines = list(csv.DictReader(file))
         self.assertEqual(lines[0]["fluid.oil.density"], "900.0")
         self.assertEqual((lines[0]["jet.class"], lines[0]["jet.tan_theta"]), ("free-jet", ""))
+        self.assertEqual((lines[0]["jet.torque.x"], lines[0]["jet.torque.z"]), ("1", "3.5"))
+        self.assertEqual(lines[2]["oil"], "p3")
         self.assertEqual((lines[1]["status"], lines[1]["reason"]), ("failed", "x"))
         self.assertEqual(lines[2]["status"], "missing")
 
+    def sweep(self, *arguments, where=None):
+        self.program = self.folder / "slagflow"
+        self.program.write_text(PROGRAM)
+        self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
+        return subprocess.run([PROJECT / "scripts/sweep", self.file, "--program", self.program, "--cores", "2", *arguments],
+                              capture_output=True, text=True, cwd=where)
+
     def run_sweep(self, *arguments):
-        return subprocess.run([PROJECT / "scripts/sweep", self.file, "--output", self.folder / "out", "--program",
-                               self.program, "--cores", "1", *arguments], capture_output=True, text=True)
+        return self.sweep("--output", self.folder / "out", *arguments)
 
     def calls(self):
         return (self.folder / "out/calls").read_text().splitlines()
 
-    def test_runs_each_point_once_and_outlives_failures(self):
-        if not (PROJECT / ".venv/bin/snakemake").is_file():
-            self.skipTest("no Snakemake; scripts/install --sweep brings it")
-        self.program = self.folder / "slagflow"
-        self.program.write_text(PROGRAM)
-        self.program.chmod(self.program.stat().st_mode | stat.S_IXUSR)
-        done = self.run_sweep()
+    def run_each_point_once(self, *engine):
+        done = self.run_sweep(*engine)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("1 of 3 points done", done.stdout)
         self.assertIn("failed: oil=B_fraction=0: error: too thick", done.stderr)
         self.assertEqual(len(self.calls()), 3)
-        self.assertIn("--set=output.end_time=0.5", self.calls()[0])
+        self.assertTrue(all("--set=output.end_time=0.5" in call for call in self.calls()))
         with open(self.folder / "out/results.csv", newline="") as file:
             self.assertEqual([line["jet.tan_theta"] for line in csv.DictReader(file)], ["0.25", "", ""])
-        self.run_sweep()
+        self.run_sweep(*engine)
         self.assertEqual(len(self.calls()), 3)  # nothing is run again
-        self.run_sweep("--retry")
+        self.run_sweep("--retry", *engine)
         self.assertEqual(len(self.calls()), 5)  # but for the failed ones when asked for
-        self.run_sweep("--set", "output.end_time=0.7")
+        self.run_sweep("--set", "output.end_time=0.7", *engine)
         self.assertEqual(len(self.calls()), 8)  # another sweep of the same name
+
+    def test_runs_each_point_once_and_outlives_failures(self):
+        self.run_each_point_once()
+
+    def test_runs_each_point_once_through_snakemake(self):
+        if not (PROJECT / ".venv/bin/snakemake").is_file():
+            self.skipTest("no Snakemake; scripts/install --sweep brings it")
+        self.run_each_point_once("--", "--latency-wait", "5")
+
+    def test_prints_a_table_of_results(self):
+        lines = self.run_sweep().stdout.splitlines()
+        head = next(k for k, line in enumerate(lines) if "status" in line)
+        self.assertEqual([line.split() for line in lines[head:head + 4]],
+                         [["oil", "fraction", "status", "jet.tan_theta"], ["A", "0", "done", "0.25"], ["B", "0", "failed", "-"],
+                          ["B", "0.5", "failed", "-"]])
+
+    def test_results_go_to_the_folder_it_is_started_in(self):
+        done = self.sweep(where=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(f"results go to {(self.folder / 'runs/sweeps/fall').resolve()}", done.stdout)
+        self.assertTrue((self.folder / "runs/sweeps/fall/results.csv").is_file())
+
+    def test_points_are_validated_before_any_runs(self):
+        self.file.write_text(SWEEP.replace("[0.0, 0.5]", "[0.0, 0.5, 0.9]"))
+        for arguments in (["--list"], ["--output", self.folder / "out"]):
+            done = self.sweep(*arguments)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("2 of 5 points are not valid:\npoint oil=A_fraction=0.9: base.toml: value 0.9", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+        self.file.write_text(SWEEP)
+        self.assertIn("3 points, all valid", self.sweep("--list").stdout)
+
+    def test_installs_nothing_unasked(self):
+        if (PROJECT / ".venv/bin/snakemake").is_file():
+            self.skipTest("Snakemake is there")
+        done = self.run_sweep("--", "--jobs", "2")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--install puts it there", done.stderr)
+        self.assertFalse((PROJECT / ".venv").exists())
+
+    def test_bad_arguments_are_errors(self):
+        for arguments, said in ((["--cores", "0"], "whole number >= 1"), (["--name", "../x"], "as a name"),
+                                (["--set", "fluid.oil.fraction=1"], "an axis of"), (["--set", "x"], "allowed: key=value"),
+                                (["--output", self.file], "cannot be written to")):
+            done = self.sweep(*arguments)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(said, done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
+
+    def test_takes_negative_values_vectors_and_flags(self):
+        self.file.write_text(SWEEP.replace("[0.0, 0.5]", "[-1.5, [0, 0, -9.81], true]").replace("fraction = 0.5", "fraction = -1.5"))
+        self.assertEqual([p.name for p in plan.read_sweep(self.file).points if p.axes["oil"] == "B"],
+                         ["oil=B_fraction=-1.5", "oil=B_fraction=0,0,-9.81", "oil=B_fraction=true"])
+
+    def test_counts_before_it_makes_points(self):
+        axes = "".join(f'[[axis]]\nkey = "fluid.k{k}"\nvalues = {list(range(1000))}\n' for k in range(3))
+        self.file.write_text(f'[sweep]\ncase = "base.toml"\n{axes}')
+        with self.assertRaisesRegex(plan.SweepError, r"1000000000 points \(1000 x 1000 x 1000\): allowed: up to 10000"):
+            plan.read_sweep(self.file)
 
 
 class Figures(unittest.TestCase):

@@ -164,14 +164,14 @@ NamedQuantity with_rest(const NamedQuantity& named, const std::string& rest) {
   if (rest.empty()) return named;
   const Bracketed parts = split_brackets(rest);
   if (parts.found) {
-    const NamedQuantity remarked = with_unit(named, without_joint(parts.before));
+    NamedQuantity remarked = with_unit(named, without_joint(parts.before));
     if (remarked.unit_known && !is_unit(parts.inside)) return remarked;  // Shear rate, 1/s (corrected)
     if (!names(without_joint(parts.before), named.quantity)) return {};
     const NamedQuantity with = with_unit(named, parts.inside);
     return !with.unit_known && names(parts.inside, named.quantity) ? named : with;
   }
   const std::string unit = without_joint(rest);
-  const NamedQuantity with = with_unit(named, unit);
+  NamedQuantity with = with_unit(named, unit);
   if (with.unit_known) return with;
   if (unit[0] == '/' && with_unit(named, unit.substr(1)).unit_known) return with_unit(named, unit.substr(1));
   const std::size_t gap = unit.find_first_of(" ,/");

@@ -60,8 +60,7 @@ std::vector<std::string> with_units_joined(const std::vector<std::string>& field
 // A row below the names that has the units of measured columns.
 bool is_units_row(const Record& record, const Block& block) {
   bool any = false;
-  for (std::size_t k = 0; k < record.fields.size(); ++k) {
-    const std::string& field = record.fields[k];
+  for (const std::string& field : record.fields) {
     if (field.empty()) continue;
     if (is_number(field)) return false;
     any = any || is_unit(field) || field[0] == '[';
@@ -94,12 +93,10 @@ class Scanner {
       const Record& record = records_[at_];
       if (record.filled() == 0 || is_rule(record)) {
         gap_ = true;
-      } else if (is_comment(record)) {
-        take_other(record);
-      } else if (std::optional<Block> block = header_here()) {
+      } else if (std::optional<Block> block = is_comment(record) ? std::nullopt : header_here()) {
         tables_.blocks.push_back(std::move(*block));
         ended_ = 0, gap_ = false;
-      } else if (tables_.blocks.empty()) {
+      } else if (is_comment(record) || tables_.blocks.empty()) {
         take_other(record);
       } else {
         take_row(record);

@@ -64,7 +64,7 @@ struct NamedQuantity {
   double factor = 1;
   std::string unit;  // as the table of units names it
 };
-NamedQuantity parse_name(const std::string& name);
+NamedQuantity parse_name(const std::string& text);
 
 // The same with a unit from elsewhere, as from a row below the names.
 NamedQuantity with_unit(NamedQuantity named, const std::string& unit);

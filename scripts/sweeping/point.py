@@ -3,11 +3,13 @@ a failed point ends no sweep; only an interrupted one leaves none and is gone on
 
 import hashlib
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
-from plan import toml_text
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from sweeping.plan import toml_text  # noqa: E402
 
 INTERRUPTED = 130
 
@@ -33,17 +35,31 @@ def finished(summary):
     return summary.is_file() and json.loads(summary.read_text()).get("status") == "done"
 
 
+def reason_of(said, status):
+    lines = said.strip().splitlines() or [f"ended with {status}"]
+    return next((line for line in lines if line.startswith("error:")), lines[-1])
+
+
+def run_to_end(arguments):
+    """Ctrl-C in a terminal is for slagflow, which leaves a checkpoint; this waits for that."""
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        return subprocess.run(arguments, capture_output=True, text=True,
+                              preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def run_point(plan, name, threads):
     point = plan["points"][name]
     folder = Path("points") / name
     folder.mkdir(parents=True, exist_ok=True)
-    done = subprocess.run(command(plan, point, folder, threads), capture_output=True, text=True)
+    done = run_to_end(command(plan, point, folder, threads))
     if done.returncode == INTERRUPTED:
         return INTERRUPTED
-    said = done.stderr.strip()
     ok = done.returncode == 0 or finished(folder / "run/summary.json")  # resuming a run that had ended says so
-    result = {"point": name, "axes": point["axes"], "status": "done" if ok else "failed",
-              "reason": "" if ok else (said.splitlines() or [f"ended with {done.returncode}"])[-1]}
+    result = {"point": name, "axes": point["axes"], "identity": identity(plan, point), "status": "done" if ok else "failed",
+              "reason": "" if ok else reason_of(done.stderr, done.returncode)}
     (folder / "result.json").write_text(json.dumps(result, indent=2))
     if not ok:
         print(f"failed: {name}: {result['reason']}", file=sys.stderr)
