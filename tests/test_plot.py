@@ -215,11 +215,64 @@ class Plot(unittest.TestCase):
         self.assertEqual(set(curves), {"a, jet", "b"})
         np.testing.assert_array_equal(curves["a, jet"], front)
 
+    def test_measures_have_panels_before_the_solver(self):
+        time, nothing = np.array([0.0, 1.0]), np.array([0.0, 0.0])
+        panels = history.panels_of({
+            "iterations": np.array([1.0, 2.0]), "a_front_m": 0.05 * time, "a_passed": 0.5 * time, "gate_flow_m3_s": 2e-3 * time,
+            "gate_passed_m3": 5 * time, "leg_m2": nothing, "lid_pressure_x_N": 3e3 * time, "lid_viscous_x_N": 1e3 * time,
+            "lid_pressure_y_N": 1e-3 * time, "lid_torque_z_Nm_m": 2e-5 * time, "kinetic_energy_J": 0.02 * time})
+        self.assertEqual([(title, unit) for title, _, unit, _ in panels],
+                         [("Front", "[mm]"), ("Passed share of the fluid", "[%]"), ("Flow rate", "[l/s]"), ("Volume", "[m³]"),
+                          ("Force", "[kN]"), ("Torque per width", "[µN m/m]"), ("Energy", "[mJ]"), ("Viscous solver", "iterations")])
+        force = dict((title, columns) for title, columns, _, _ in panels)["Force"]
+        self.assertEqual(list(force), ["lid_force_x_N"])  # y is nothing beside x
+        np.testing.assert_allclose(force["lid_force_x_N"], 4e3 * time)
+        self.assertEqual(history.label_of("lid_force_x_N"), "lid x")
+
+    def test_history_of_measures_is_drawn(self):
+        self.make_run([0, 0.1], [5, 5])
+        few = self.plot(self.folder) and self.picture_size("history.png")[1]
+        (self.folder / "history.csv").write_text(
+            "time_s,step,kinetic_energy_J,iterations,a_front_m,gate_flow_m3_s,gate_passed_m3,lid_pressure_x_N\n"
+            "0,0,0,1,0.1,,0,\n0.1,5,0.02,3,0.2,1e-3,1e-4,5\n")
+        done = self.plot(self.folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertGreater(self.picture_size("history.png")[1], 1.3 * few)
+
+    def test_times_that_are_none_are_refused(self):
+        self.make_run([0, 0.1], [5, 5])
+        for times in ("nan", "inf", "-1", "-0.1,0.2", "soon", "", "0.1,,0.2", "1e400"):
+            done = self.run_script(self.folder, "--times", times)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("allowed: times in seconds >= 0, commas between them", done.stderr)
+        self.assertFalse((self.folder / "pictures").exists())
+
+    def test_a_time_after_the_last_one_is_told(self):
+        self.make_run([0, 0.1], [5, 5])
+        done = self.plot(self.folder, "--times", "0.05,7")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("the last time written is 0.1 s", done.stderr)
+
     def test_case_file_without_spacing_is_an_error(self):
         self.make_run([0], [1])
         (self.folder / "case.toml").write_text("[resolution]\n")
         with self.assertRaisesRegex(RunFolderError, "spacing"):
             RunFolder(self.folder)
+
+    def test_files_that_are_no_text_or_no_case_are_errors(self):
+        self.make_run([0], [1])
+        case = (self.folder / "case.toml").read_text()
+        for wrong in (b"\xff\xfe", b"resolution = 3\n", b'[resolution]\nspacing = "x"\n', b"[resolution]\nspacing = 0\n",
+                      b"[resolution]\nspacing = nan\n"):
+            (self.folder / "case.toml").write_bytes(wrong)
+            with self.assertRaisesRegex(RunFolderError, "case.toml: "):
+                RunFolder(self.folder)
+        (self.folder / "case.toml").write_text("\ufeff" + case)
+        (self.folder / "history.csv").write_bytes(b"\xff\xfe\x00")
+        with self.assertRaisesRegex(RunFolderError, "history.csv is not a table of text"):
+            RunFolder(self.folder).history()
+        (self.folder / "history.csv").write_text("\ufeff" + HISTORY)
+        self.assertIn("time_s", RunFolder(self.folder).history())
 
     def test_ball_has_its_true_size(self):
         canvas = Canvas((-1, 1, -1, 1), 100)

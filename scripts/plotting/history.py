@@ -1,4 +1,6 @@
-"""What history.csv holds, over time."""
+"""What history.csv holds, over time: the measures of the case first, then the flow as a whole and the solver."""
+
+import re
 
 import matplotlib
 
@@ -10,21 +12,64 @@ from matplotlib.ticker import MaxNLocator
 
 from plotting.run_folder import RunFolderError
 
-# Panels: title, axis, factor from the column's SI unit, and which columns belong there.
+# Units by steps in which an axis may be scaled, the largest first.
+LENGTH = (("km", 1e3), ("m", 1), ("mm", 1e-3))
+AREA = (("m²", 1), ("cm²", 1e-4), ("mm²", 1e-6))
+VOLUME = (("m³", 1), ("l", 1e-3), ("ml", 1e-6), ("µl", 1e-9))
+FORCE = (("MN", 1e6), ("kN", 1e3), ("N", 1), ("mN", 1e-3), ("µN", 1e-6))
+ENERGY = (("MJ", 1e6), ("kJ", 1e3), ("J", 1), ("mJ", 1e-3), ("µJ", 1e-6))
+MASS = (("t", 1e3), ("kg", 1), ("g", 1e-3), ("mg", 1e-6))
+SHARE = (("%", 1e-2),)
+COUNT = (("particles", 1),)
+ITERATIONS = (("iterations", 1),)
+
+# Panels: title, the columns that belong there, what ends their unit, and its steps.
 PANELS = (
-    ("Energy", "[mJ]", 1e3, lambda name: "energy" in name),
-    ("Front", "[mm]", 1e3, lambda name: name.endswith("_m")),
-    ("Fluid", "particles", 1, lambda name: "particles" in name),
-    ("Viscous solver", "iterations", 1, lambda name: "iterations" in name),
+    ("Front", r"_front_m$", "", LENGTH),
+    ("Passed share of the fluid", r"_passed$", "", SHARE),
+    ("Flow rate", r"_m3_s$", "/s", VOLUME),
+    ("Flow rate", r"_m2_s$", "/s", AREA),
+    ("Volume", r"_m3$", "", VOLUME),
+    ("Area", r"_m2$", "", AREA),
+    ("Force", r"_force_[xyz]_N$", "", FORCE),
+    ("Force per width", r"_force_[xyz]_N_m$", "/m", FORCE),
+    ("Torque", r"_torque_[xyz]_Nm$", " m", FORCE),
+    ("Torque per width", r"_torque_[xyz]_Nm_m$", " m/m", FORCE),
+    ("Work", r"_work_J$", "", ENERGY),
+    ("Work per width", r"_work_J_m$", "/m", ENERGY),
+    ("Energy", r"^(kinetic|potential|dissipated)_energy_J$", "", ENERGY),
+    ("Mass in the domain, and left", r"^mass_(in|left)_kg$", "", MASS),
+    ("Fluid", r"^particles_(in|out)$", "", COUNT),
+    ("Viscous solver", r"^iterations$", "", ITERATIONS),
 )
+ENDING = re.compile(r"(_front_m|_passed|_m[23]_s|_m[23]|_(N|Nm|J)(_m)?|_kg)$")
 LINES = ("#31688e", "#d1652a", "#3f8f4f", "#7a4fa3", "#8a6d3b", "#555555")  # tell apart in grey too
+STYLES = ("-", "--", ":", "-.")
+SMALL = 1e-3  # of the largest component: a force or torque below it is none
 
 
 def label_of(name):
     """`kinetic_energy_J` reads as `kinetic energy`, `jet_front_m` as `jet`: the axis says the rest."""
-    for ending in ("_front_m", "_J", "_m"):
-        name = name.removesuffix(ending)
-    return name.replace("_", " ")
+    return re.sub(r"_flow$|_(force|torque)(?=_[xyz]$)", "", ENDING.sub("", name)).replace("_", " ")
+
+
+def with_forces(columns):
+    """Pressure and viscous parts of a force as their sum."""
+    joined = {}
+    for name, values in columns.items():
+        part = re.search(r"_(pressure|viscous)_[xyz]_N(_m)?$", name)
+        target = name if part is None else name.replace(f"_{part[1]}_", "_force_")
+        joined[target] = joined[target] + values if part and target in joined else values
+    return joined
+
+
+def without_zeros(chosen):
+    """Without vectors' components that are nothing beside the largest one."""
+    vectors = [name for name in chosen if re.search(r"_(force|torque)_[xyz]_", name)]
+    if not vectors:
+        return chosen
+    sizes = {name: np.nanmax(np.abs(chosen[name]), initial=0) for name in vectors}
+    return {name: values for name, values in chosen.items() if sizes[name] > SMALL * max(sizes.values())}
 
 
 def labelled(columns):
@@ -38,13 +83,33 @@ def labelled(columns):
     return curves
 
 
-def draw_panel(axes, time, columns, title, unit, factor):
-    for colour, (label, values) in zip(LINES, labelled(columns).items()):
-        axes.plot(time, factor * values, color=colour, linewidth=1.5, label=label)
+def scale(columns, steps):
+    """The unit, and its size, in which the largest value is at least one."""
+    largest = max((np.nanmax(np.abs(values), initial=0) for values in columns.values()), default=0)
+    return next(((name, size) for name, size in steps if largest >= size), steps[-1] if largest > 0 else steps[0])
+
+
+def panels_of(columns):
+    """Title, curves' columns, unit and its size of each panel; without those in which nothing is."""
+    columns, panels = with_forces(columns), []
+    for title, pattern, ending, steps in PANELS:
+        chosen = without_zeros({name: values for name, values in columns.items() if re.search(pattern, name)})
+        empty = not any(np.any(np.nan_to_num(values)) for values in chosen.values())
+        if not chosen or (empty and steps is not COUNT):
+            continue
+        unit, size = scale(chosen, steps)
+        panels.append((title, chosen, f"[{unit}{ending}]" if steps not in (COUNT, ITERATIONS) else unit, size))
+    return panels
+
+
+def draw_panel(axes, time, title, columns, unit, size):
+    for number, (label, values) in enumerate(labelled(columns).items()):
+        style = STYLES[number // len(LINES) % len(STYLES)]
+        axes.plot(time, values / size, color=LINES[number % len(LINES)], linestyle=style, linewidth=1.5, label=label)
     axes.set_title(title, loc="left", fontsize=10)
     axes.set_xlabel("time  [s]", fontsize=9)
     axes.set_ylabel(unit, fontsize=9)
-    if factor == 1:  # counts
+    if not unit.startswith("["):  # counts
         axes.yaxis.set_major_locator(MaxNLocator(integer=True))
     axes.tick_params(labelsize=8)
     axes.grid(color="0.92", linewidth=0.7)
@@ -60,11 +125,7 @@ def draw(run, path):
     if "time_s" not in columns:
         raise RunFolderError(f"{run.path / 'history.csv'} has no column time_s")
     time = columns.pop("time_s")
-    panels = []
-    for title, axis, factor, belongs in PANELS:
-        chosen = {name: values for name, values in columns.items() if belongs(name)}
-        if chosen:
-            panels.append((chosen, title, axis, factor))
+    panels = panels_of(columns)
     lines = max(1, (len(panels) + 1) // 2)
     figure, grid = plt.subplots(lines, 2, figsize=(9, 0.4 + 2.7 * lines), squeeze=False, dpi=150)
     for axes, panel in zip(grid.flat, panels):

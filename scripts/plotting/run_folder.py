@@ -1,6 +1,7 @@
 """Reads the folder of a run: VTKHDF snapshots, the case and the history."""
 
 import csv
+import math
 import tomllib
 
 import h5py
@@ -64,7 +65,7 @@ class RunFolder:
         walls = path / "walls.vtkhdf"
         self.walls = Snapshots(walls) if walls.is_file() else None
         self._case = self._read_case()
-        self.spacing = float(self._case["resolution"]["spacing"])
+        self.spacing = self._case["resolution"]["spacing"]
 
     @property
     def title(self):
@@ -90,8 +91,11 @@ class RunFolder:
         path = self.path / "history.csv"
         if not path.is_file():
             raise RunFolderError(f"{path} is missing")
-        with open(path, newline="") as file:
-            rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+        try:
+            with open(path, newline="", encoding="utf-8-sig") as file:
+                rows = [row for row in csv.reader(file) if row and not row[0].startswith("#")]
+        except (UnicodeDecodeError, csv.Error) as error:
+            raise RunFolderError(f"{path} is not a table of text: {error}") from error
         if not rows:
             raise RunFolderError(f"{path} is empty")
         names, lines = rows[0], [row for row in rows[1:] if len(row) == len(rows[0])]
@@ -106,10 +110,12 @@ class RunFolder:
     def _read_case(self):
         path = self.path / "case.toml"
         try:
-            case = tomllib.loads(path.read_text())
-            case["resolution"]["spacing"]
+            case = tomllib.loads(path.read_text(encoding="utf-8-sig"))
+            spacing = case["resolution"]["spacing"]
         except FileNotFoundError:
             raise RunFolderError(f"{path} is missing: is {self.path} the folder of a run?") from None
-        except (tomllib.TOMLDecodeError, KeyError) as error:
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError, KeyError, TypeError) as error:
             raise RunFolderError(f"{path}: {error}") from error
+        if type(spacing) not in (int, float) or not 0 < spacing < math.inf:
+            raise RunFolderError(f"{path}: key 'resolution.spacing': value {spacing!r}: allowed: a number > 0 [m]")
         return case
