@@ -1,5 +1,6 @@
 #include <nvtx3/nvToolsExt.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <utility>
 
@@ -30,7 +31,12 @@ struct Context::Native {
   }
 };
 
+// Drivers before CUDA 12.3 cannot load a kernel while its launch is recorded. The driver reads this when it
+// is used first; what the user has set stays.
+static void load_all_kernels_at_the_start() { setenv("CUDA_MODULE_LOADING", "EAGER", 0); }
+
 Context::Context() : native_(std::make_unique<Native>()) {
+  load_all_kernels_at_the_start();
   check(cudaStreamCreateWithFlags(&native_->stream, cudaStreamNonBlocking), "stream create");
   check(cudaStreamCreateWithFlags(&native_->loop_stream, cudaStreamNonBlocking), "stream create");
   check(cudaMallocHost(&native_->staging, posted_bytes), "pinned memory");
@@ -182,6 +188,7 @@ std::map<std::string, double> Context::timings() {
 void* Context::stream() const { return native_->stream; }
 
 DeviceInfo device_info() {
+  load_all_kernels_at_the_start();
   int device = 0;
   cudaDeviceProp properties{};
   check(cudaGetDevice(&device), "no usable GPU");

@@ -7,11 +7,18 @@ if(NOT DEFINED CMAKE_CUDA_COMPILER AND NOT DEFINED ENV{CUDACXX} AND EXISTS /usr/
 endif()
 set(CMAKE_CUDA_RUNTIME_LIBRARY Shared)
 enable_language(CUDA)
+# So that programs find the runtime without LD_LIBRARY_PATH, which still goes before.
+find_package(CUDAToolkit REQUIRED)
+set(CMAKE_BUILD_RPATH ${CUDAToolkit_LIBRARY_DIR})
+set(CMAKE_INSTALL_RPATH ${CUDAToolkit_LIBRARY_DIR})
 
 add_library(slagflow_backend INTERFACE)
 target_compile_definitions(slagflow_backend INTERFACE SLAGFLOW_CUDA)
 target_include_directories(slagflow_backend SYSTEM INTERFACE ${CMAKE_CUDA_TOOLKIT_INCLUDE_DIRECTORIES})
+if(SLAGFLOW_WARNINGS_AS_ERRORS)
+  set(strict "SHELL:-Werror all-warnings" -Xcompiler=-Werror)
+endif()
 target_compile_options(slagflow_backend INTERFACE
   $<$<COMPILE_LANGUAGE:CUDA>:--extended-lambda --expt-relaxed-constexpr -lineinfo
-  "SHELL:-Werror all-warnings" "SHELL:-Xcompiler -Wall,-Wextra,-Werror" --no-compress>)
+  ${strict} "SHELL:-Xcompiler -Wall,-Wextra" --no-compress>)
 set_property(TARGET slagflow_backend PROPERTY INTERFACE_POSITION_INDEPENDENT_CODE ON)
