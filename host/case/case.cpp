@@ -18,8 +18,15 @@ std::string read_text(const std::string& path) {
   std::error_code failure;
   std::ifstream stream(path, std::ios::binary | std::ios::ate);
   const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  if (size < 0 || !std::filesystem::is_regular_file(path, failure))
-    throw InputError(path + ": cannot be read: allowed: a case file (TOML)");
+  if (size < 0 || !std::filesystem::is_regular_file(path, failure)) {
+    const bool there = std::filesystem::exists(path, failure);
+    const bool folder = std::filesystem::is_directory(path, failure);
+    throw InputError(path + ": " +
+                     (folder  ? "is a folder"
+                      : there ? "cannot be read"
+                              : "is not there") +
+                     ": allowed: a case file (TOML) that can be read");
+  }
   if (size > largest_file)
     throw InputError(path + ": " + std::to_string(size) + " bytes: allowed: a case file up to " +
                      std::to_string(largest_file) + " bytes");
@@ -47,12 +54,12 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
 }
 
 Case parse_case(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
-  Toml root = parse_toml(text, file);
-  CaseProblems problems(file);
-  apply_overrides(root, overrides, problems);
+  TomlFile source(text, file);
+  CaseProblems problems(file, source);
+  apply_overrides(source.root(), overrides, problems);
   Case c;
   c.file = file;
-  CaseReader reader(root, Place{file + ":1", 0}, problems);
+  CaseReader reader(source.root(), Place{file + ":1", 0}, problems);
   describe(reader, c);
   reader.finish();
   check_across_tables(c, problems);

@@ -156,8 +156,8 @@ void check_stop(const Case& c, CaseProblems& problems) {
     if (m.name == c.output.stop_after) return;
     arriving += (arriving.empty() ? "" : ", ") + m.name;
   }
-  problems.add("output.stop_after", "value \"" + c.output.stop_after +
-                                        "\" is no measure that arrives: allowed: a front or jet: " +
+  problems.add("output.stop_after", "value " + in_quotes(c.output.stop_after) +
+                                        " is no measure that arrives: allowed: a front or jet: " +
                                         (arriving.empty() ? "the case has none" : arriving));
 }
 

@@ -29,12 +29,15 @@ bool describe_name(CaseVisitor&, const Key&, std::string& name);
 template <class T>
 void describe_own_name(CaseVisitor& v, const Key& k, const std::vector<T>& entries, T& entry) {
   if (!describe_name(v, k, entry.name)) return;
+  constexpr std::ptrdiff_t looked_at = 2000;  // beyond that the number of entries is wrong anyway
+  if (&entry - entries.data() > looked_at) return;
   for (const T* other = entries.data(); other != &entry; ++other)
     if (other->name == entry.name)
-      return v.problem("name", "value \"" + entry.name + "\" is given twice: allowed: a name of its own");
+      return v.problem("name",
+                       "value " + in_quotes(entry.name) + " is given twice: allowed: a name of its own");
 }
 
-// More entries than there are numbers for.
-void check_count(CaseVisitor&, const char* key, std::size_t count);
+// More entries than there are numbers for; `of` says of which kind.
+void check_count(CaseVisitor&, const char* key, std::size_t count, const std::string& of = "");
 
 }  // namespace slagflow

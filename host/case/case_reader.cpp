@@ -15,12 +15,18 @@ Range with_word(const Key& k, Range range) {
   return range;
 }
 
-// A table that a case has once and that has a key of this name.
+// As a file heads it: [numerics], [fluid.NAME], [[region]]; empty for tables without a line of their own.
+std::string heading(const std::string& table) {
+  for (const CatalogueKey* k : catalogue().in(""))
+    if (k->inside == table) return k->form == Form::list ? "[[" + k->name + "]]" : "[" + table + "]";
+  return "";
+}
+
+// A table that has a key of this name.
 std::string elsewhere(const std::string& name) {
   for (const CatalogueKey& k : catalogue().keys())
-    if (k.name == name && !k.is_table() && catalogue().find("", k.table) &&
-        catalogue().find("", k.table)->form == Form::table)
-      return "; " + name + " is a key of [" + k.table + "]";
+    if (k.name == name && !k.is_table() && !heading(k.table).empty())
+      return "; " + name + " is a key of " + heading(k.table);
   return "";
 }
 
@@ -64,7 +70,7 @@ bool CaseReader::choices(const Key& k, bool* chosen, const Words& words, const c
   for (const std::string& word : given) {
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end())
-      problem(k.name, "value \"" + word + "\" is not " + one + ": allowed: " + join(words));
+      problem(k.name, "value " + in_quotes(word) + " is not " + one + ": allowed: " + join(words));
     else
       chosen[found - words.begin()] = true;
   }
@@ -86,10 +92,11 @@ bool CaseReader::choice(const Key& k, int& index, const Words& words) {
   return known;
 }
 
-bool CaseReader::reference(const Key& k, int& index, const Words& names, const char*) {
+bool CaseReader::reference(const Key& k, int& index, const Words& names, const char* one) {
   // Without anything to name, that itself is reported.
   if (names.empty() && !here().has(k.name) && k.need == Need::optional) return false;
-  return here().read_choice(k.name, index, names, k.need);
+  const Words none{std::string("none, as the case does not have ") + one};
+  return here().read_choice(k.name, index, names.empty() ? none : names, k.need) && !names.empty();
 }
 
 bool CaseReader::choice_or_number(const Key& k, int& index, const Words& words, double& target,
@@ -143,10 +150,18 @@ std::size_t CaseReader::enter_named(const Key& k, std::size_t) {
 void CaseReader::enter_named_entry(std::size_t index, std::string& name) {
   name = lists_.back().entries[index].first;
   enter_entry(index);
+  if (!here().from_override()) return;
+  Words others;
+  for (const auto& [other, table] : lists_.back().entries)
+    if (!table.from_override()) others.push_back(other);
+  frames_.back().meant = suggestion(name, others);
 }
 
 void CaseReader::leave() {
   report_unknown(frames_.back());
+  if (!frames_.back().meant.empty() && here().faulty())
+    problem("", "is not in the file: " + frames_.back().meant +
+                    "allowed: a name of the file, or all keys of a new table");
   frames_.pop_back();
 }
 
@@ -160,19 +175,31 @@ bool CaseReader::undecided(const Frame& frame, const CatalogueKey& k) {
   });
 }
 
+// What was asked for, and what would be if the choices were known.
+Words CaseReader::allowed_in(const Frame& frame) {
+  Words allowed = frame.table.known();
+  if (frame.undecided.empty()) return allowed;
+  for (const CatalogueKey* k : catalogue().in(frame.described))
+    if (undecided(frame, *k) && std::find(allowed.begin(), allowed.end(), k->name) == allowed.end())
+      allowed.push_back(k->name);
+  return allowed;
+}
+
 // Keys that go with other choices have their reason; where the choice is not known, they are passed over.
 void CaseReader::report_unknown(Frame& frame) {
   const std::vector<std::string> unknown = frame.table.unknown();
   if (unknown.empty()) return;
+  const Words allowed = allowed_in(frame);
+  const std::string all = "allowed: " + join(allowed);
   for (const std::string& name : unknown) {
     const CatalogueKey* const known = catalogue().find(frame.described, name);
     if (known && undecided(frame, *known)) continue;
     if (known && !known->reason.empty())
       frame.table.refuse(name.c_str(), known->reason);
     else if (known)
-      frame.table.report_unknown(name, "", "; " + name + " goes with " + known->where_text());
+      frame.table.report_unknown(name, all + "; " + name + " goes with " + known->where_text());
     else
-      frame.table.report_unknown(name, frame.table.nearest(name), elsewhere(name));
+      frame.table.report_unknown(name, suggestion(name, allowed) + all + elsewhere(name));
   }
 }
 

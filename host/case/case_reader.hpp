@@ -48,6 +48,7 @@ class CaseReader : public CaseVisitor {
     CaseTable table;
     std::string described;                 // the table's name in the reference of keys
     std::vector<std::string> undecided{};  // choices that are not known
+    std::string meant{};  // of a table that only an override names: an entry of the file with a like name
   };
   struct List {
     std::vector<std::pair<std::string, CaseTable>> entries;
@@ -58,6 +59,7 @@ class CaseReader : public CaseVisitor {
   void enter(CaseTable table, const std::string& described);
   void report_unknown(Frame& frame);
   static bool undecided(const Frame& frame, const CatalogueKey& k);
+  static Words allowed_in(const Frame& frame);
 
   std::vector<Frame> frames_;
   std::vector<List> lists_;

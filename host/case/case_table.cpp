@@ -1,6 +1,7 @@
 #include "host/case/case_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numeric>
 
@@ -21,6 +22,13 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
     }
   }
   return row.back();
+}
+
+// As keys are written: small letters, and _ between words.
+std::string plainly(std::string text) {
+  for (char& c : text)
+    c = c == '-' || c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
 }
 
 bool number_of(const Toml& value, double& number) {
@@ -78,10 +86,14 @@ bool Range::holds(double value) const {
   return low && high;
 }
 
-std::string Range::text() const {
+std::string Range::text() const { return text(false); }
+
+std::string Range::text_for(double value) const { return text(std::abs(value) > largest); }
+
+std::string Range::text(bool outermost) const {
   std::string shown = "a number";
   if (lower > -largest) shown += (lower_bound == Bound::open ? " > " : " >= ") + show(lower);
-  if (upper < largest) {
+  if (upper < largest || (outermost && lower > -largest)) {
     shown += lower > -largest ? " and" : "";
     shown += (upper_bound == Bound::open ? " < " : " <= ") + show(upper);
   } else if (lower <= -largest) {
@@ -91,12 +103,19 @@ std::string Range::text() const {
 }
 
 std::string suggestion(const std::string& key, const std::vector<std::string>& known) {
+  constexpr std::size_t longest = 100, shortest_part = 4;
+  if (key.size() > longest) return "";
+  const std::string plain = plainly(key);
   std::string nearest;
   std::size_t best = std::max<std::size_t>(2, key.size() / 3) + 1;
   for (const std::string& name : known) {
-    const std::size_t distance = edit_distance(key, name);
+    const std::size_t distance = edit_distance(plain, plainly(name));
     if (distance < best) best = distance, nearest = name;
   }
+  for (const std::string& name : known)
+    if (nearest.empty() && std::min(plain.size(), name.size()) >= shortest_part &&
+        (name.find(plain) != std::string::npos || plain.find(name) != std::string::npos))
+      nearest = name;
   return nearest.empty() ? "" : "did you mean '" + nearest + "'? ";
 }
 
@@ -110,7 +129,8 @@ CaseTable::CaseTable(const Toml* table, std::string path, Place place, CaseProbl
     : table_(table), path_(std::move(path)), place_(std::move(place)), problems_(&problems) {
   if (!path_.empty() && table_) problems_->note(path_, place_);
   if (table_ && !table_->is_table()) {
-    problems_->add(path_, "value " + show(*table_) + " has the wrong type: allowed: a table");
+    problems_->add(path_, "value " + show(*table_) + " has the wrong type: allowed: a table" +
+                              (table_->is_array() ? ", [" + path_ + "], not a list" : ""));
     table_ = nullptr;
   }
 }
@@ -139,7 +159,7 @@ const Toml* CaseTable::find(const char* key, Need need, const std::string& allow
     return nullptr;
   }
   const Toml& value = table_->as_table().at(key);
-  problems_->note(key_path(key), place_of(value));
+  problems_->note(key_path(key), problems_->place_of(value));
   return &value;
 }
 
@@ -160,7 +180,7 @@ bool CaseTable::read(const char* key, double& target, const Range& range, Need n
   double number = 0;
   if (!number_of(*value, number)) return wrong_type(key, *value, range.text());
   if (!range.holds(number)) {
-    problem(key, "value " + show(*value) + " is out of range: allowed: " + range.text());
+    problem(key, "value " + show(*value) + " is out of range: allowed: " + range.text_for(number));
     return false;
   }
   target = number;
@@ -302,7 +322,7 @@ bool CaseTable::read_choice(const char* key, int& target, const std::vector<std:
 
 CaseTable CaseTable::table(const char* key) {
   const Toml* value = find(key, Need::optional, "");
-  return CaseTable(value, key_path(key), value ? place_of(*value) : place_, *problems_);
+  return CaseTable(value, key_path(key), value ? problems_->place_of(*value) : place_, *problems_);
 }
 
 std::vector<CaseTable> CaseTable::tables(const char* key, Need need) {
@@ -311,14 +331,15 @@ std::vector<CaseTable> CaseTable::tables(const char* key, Need need) {
   const Toml* value = find(key, need, allowed);
   if (!value) return result;
   if (!value->is_array()) {
-    wrong_type(key, *value, "a list of tables");
+    wrong_type(key, *value,
+               std::string("a list of tables") + (value->is_table() ? ", [[" + key_path(key) + "]]" : ""));
     return result;
   }
   if (value->as_array().empty() && need == Need::required)
     problem(key, "value [] is empty: allowed: " + allowed);
   for (const Toml& entry : value->as_array())
-    result.emplace_back(&entry, key_path(key) + "." + std::to_string(result.size()), place_of(entry),
-                        *problems_);
+    result.emplace_back(&entry, key_path(key) + "." + std::to_string(result.size()),
+                        problems_->place_of(entry), *problems_);
   return result;
 }
 
@@ -333,7 +354,8 @@ std::vector<std::pair<std::string, CaseTable>> CaseTable::named_tables(const cha
   }
   if (value->as_table().empty() && need == Need::required) problem(key, "is empty: allowed: " + allowed);
   for (const auto& [name, entry] : value->as_table())
-    result.emplace_back(name, CaseTable(&entry, key_path(key) + "." + name, place_of(entry), *problems_));
+    result.emplace_back(
+        name, CaseTable(&entry, key_path(key) + "." + name, problems_->place_of(entry), *problems_));
   const auto earlier = [](const auto& a, const auto& b) {
     return a.second.place_.order < b.second.place_.order;
   };
@@ -349,11 +371,10 @@ std::vector<std::string> CaseTable::unknown() const {
   return names;
 }
 
-void CaseTable::report_unknown(const std::string& name, const std::string& before, const std::string& after) {
-  problems_->note(key_path(name), place_of(table_->as_table().at(name)));
-  problem(name, "unknown: " + before + "allowed: " + join(known_) + after);
+// Tables of the top level go first: what is missing in their place follows.
+void CaseTable::report_unknown(const std::string& name, const std::string& what) {
+  problems_->note(key_path(name), problems_->place_of(table_->as_table().at(name)));
+  problems_->add_unknown(key_path(name), "unknown: " + what, path_.empty());
 }
-
-std::string CaseTable::nearest(const std::string& name) const { return suggestion(name, known_); }
 
 }  // namespace slagflow

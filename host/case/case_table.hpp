@@ -27,6 +27,11 @@ struct Range {
 
   bool holds(double value) const;
   std::string text() const;  // "> 0 [kg/m^3]"
+  // The same, with the outermost limit where this value is beyond it.
+  std::string text_for(double value) const;
+
+ private:
+  std::string text(bool outermost) const;
 };
 Range any_number(const std::string& unit);
 Range above(double lower, const std::string& unit);
@@ -38,27 +43,38 @@ Range inside(double lower, double upper, const std::string& unit);    // without
 // What is wrong with a case so far, and where each key stands.
 class CaseProblems {
  public:
-  explicit CaseProblems(std::string file) : file_(std::move(file)) {}
+  CaseProblems(std::string file, const TomlFile& source) : file_(std::move(file)), source_(source) {}
+
+  Place place_of(const Toml& value) const { return source_.place_of(value); }
 
   void note(const std::string& key, const Place& place);
   // Adds "PLACE: key 'KEY': WHAT".
   void add(const std::string& key, const std::string& what);
   void add_missing(const std::string& key, const Place& place, const std::string& allowed);
+  // Of a key that is not known; the first of them are told, of the rest the number.
+  void add_unknown(const std::string& key, const std::string& what, bool before_others);
   // Adds a message that names its place itself.
   void add_message(const std::string& message);
   // Whether none of these keys has been reported.
   bool fine(std::initializer_list<std::string> keys) const;
-  // Throws InputError with one line per problem, in the order of the file.
+  // Whether none of the keys in a table has.
+  bool fine_within(const std::string& table) const;
+  // Throws InputError with one line per problem, in the order of the file, up to a number of each kind.
   void raise() const;
 
   const std::map<std::string, Place>& places() const { return places_; }
 
  private:
+  enum class Kind { unknown_key, other };
   struct Problem {
     long order;
     std::string message;
+    Kind kind = Kind::other;
   };
+  Place place_of(const std::string& key) const;
+
   std::string file_;
+  const TomlFile& source_;
   std::map<std::string, Place> places_;
   std::set<std::string> faulty_;
   std::vector<Problem> problems_;
@@ -98,18 +114,18 @@ class CaseTable {
   std::vector<std::pair<std::string, CaseTable>> named_tables(const char* key, Need need);
 
   bool has(const char* key) const;
+  bool from_override() const { return place_.order == override_order; }
+  bool faulty() const { return !problems_->fine_within(path_); }
   bool is_list(const char* key) const;
   // Reports the key, if it is given, as one that does not go with the others.
   void refuse(const char* key, const std::string& reason);
   const std::string& path() const { return path_; }
   std::string key_path(const std::string& key) const;
   void problem(const std::string& key, const std::string& what);
-  // The keys that are given and were not asked for.
+  // The keys that are given and were not asked for, and those that were.
   std::vector<std::string> unknown() const;
-  // Of one of them, with what goes before and after the keys that are known.
-  void report_unknown(const std::string& name, const std::string& before, const std::string& after);
-  // "did you mean 'x'? ", of the keys that are known, or nothing.
-  std::string nearest(const std::string& name) const;
+  const std::vector<std::string>& known() const { return known_; }
+  void report_unknown(const std::string& name, const std::string& what);
 
  private:
   const Toml* find(const char* key, Need need, const std::string& allowed);
@@ -123,7 +139,7 @@ class CaseTable {
   std::vector<std::string> known_;
 };
 
-// "did you mean 'x'? ", or nothing.
+// "did you mean 'x'? ", of what is written alike or has a part in common, or nothing.
 std::string suggestion(const std::string& key, const std::vector<std::string>& known);
 
 // "a, b, c"

@@ -34,14 +34,16 @@ void describe_domain(CaseVisitor& v, Case& c) {
 bool describe_name(CaseVisitor& v, const Key& k, std::string& name) {
   if (!v.text(k, name)) return false;
   if (is_plain_name(name)) return true;
-  v.problem("name", "value \"" + name + "\" is not a name: allowed: up to 100 of letters, digits, _ - . ; " +
+  v.problem("name", "value " + in_quotes(name) +
+                        " is not a name: allowed: up to 100 of letters, digits, _ - . ; " +
                         "the first a letter, digit or _");
   return false;
 }
 
-void check_count(CaseVisitor& v, const char* k, std::size_t count) {
+void check_count(CaseVisitor& v, const char* k, std::size_t count, const std::string& of) {
   constexpr std::size_t most = 255;  // particles keep the index of their fluid or wall in one byte
-  if (count > most) v.problem(k, std::to_string(count) + " entries: allowed: up to " + std::to_string(most));
+  if (count > most)
+    v.problem(k, std::to_string(count) + " entries" + of + ": allowed: up to " + std::to_string(most));
 }
 
 void describe_frame(CaseVisitor& v, Case& c) {

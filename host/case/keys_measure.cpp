@@ -59,8 +59,12 @@ void describe_measure(CaseVisitor& v, const Case& c, MeasureSpec& m) {
 }  // namespace
 
 void describe_measures(CaseVisitor& v, Case& c) {
-  v.list(key("measure", "none or more: what is measured"), c.measures,
+  v.list(key("measure", "none or more: what is measured, up to 255 of a type"), c.measures,
          [&](MeasureSpec& m) { describe_measure(v, c, m); });
+  std::vector<std::size_t> count(measure_names.size(), 0);
+  for (const MeasureSpec& m : c.measures) ++count[static_cast<std::size_t>(m.type)];
+  for (std::size_t type = 0; type < count.size(); ++type)
+    check_count(v, "measure", count[type], " of type \"" + measure_names[type] + "\"");
 }
 
 }  // namespace slagflow

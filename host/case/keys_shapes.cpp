@@ -56,7 +56,8 @@ void describe(CaseVisitor& v, StlSpec& stl, const std::string& case_file) {
   const fs::path folder = fs::absolute(fs::path(case_file), failure).parent_path();
   const fs::path path = (folder / stl.file).lexically_normal();  // an absolute file replaces the folder
   if (!fs::is_regular_file(path, failure))
-    v.problem("file", "value \"" + stl.file + "\" is not a file that can be read: allowed: an STL file, " +
+    v.problem("file", "value " + in_quotes(stl.file) +
+                          " is not a file that can be read: allowed: an STL file, " +
                           "its path relative to the case file");
   stl.file = path.string();
 }

@@ -1,8 +1,10 @@
 #include "host/case/toml_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <regex>
 #include <sstream>
 
@@ -12,55 +14,7 @@ namespace slagflow {
 namespace {
 
 const std::string override_prefix = "--set ";
-constexpr long after_every_line = 1000000000;
-
-// The parser recurses for every bracket and every part of a dotted key; a hostile file must not exhaust
-// the stack.
-constexpr int deepest_nesting = 200, most_dots = 10000;
-
-// Bytes of the character of UTF-8 that begins here; 0 if there is none (Unicode standard, table 3-7).
-std::size_t length_of_character(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t k) {
-    return at + k < text.size() ? static_cast<unsigned char>(text[at + k]) : 0u;
-  };
-  const auto follows = [&](std::size_t k) { return byte(k) >= 0x80 && byte(k) <= 0xBF; };
-  const unsigned first = byte(0), second = byte(1);
-  if (first < 0x80) return 1;
-  if (first >= 0xC2 && first <= 0xDF) return follows(1) ? 2 : 0;
-  if (first >= 0xE0 && first <= 0xEF) {
-    const bool overlong = first == 0xE0 && second < 0xA0, surrogate = first == 0xED && second > 0x9F;
-    return follows(1) && follows(2) && !overlong && !surrogate ? 3 : 0;
-  }
-  if (first < 0xF0 || first > 0xF4) return 0;
-  const bool overlong = first == 0xF0 && second < 0x90, beyond = first == 0xF4 && second > 0x8F;
-  return follows(1) && follows(2) && follows(3) && !overlong && !beyond ? 4 : 0;
-}
-
-// The parser reads beyond its text where that is not UTF-8.
-void check_encoding(const std::string& text, const std::string& name) {
-  int line = 1;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = length_of_character(text, at);
-    if (length == 0) throw InputError(name + ":" + std::to_string(line) + ": not TOML: not UTF-8");
-    if (text[at] == '\n') ++line;
-    at += length;
-  }
-}
-
-void check_nesting(const std::string& text, const std::string& name) {
-  int depth = 0, line = 1, dots = 0;
-  for (const char c : text) {
-    if (c == '\n') ++line, dots = 0;
-    if (c == '.' && ++dots > most_dots)
-      throw InputError(name + ":" + std::to_string(line) + ": more than " + std::to_string(most_dots) +
-                       " dots on one line");
-    if (c == '[' || c == '{') ++depth;
-    if ((c == ']' || c == '}') && depth > 0) --depth;
-    if (depth > deepest_nesting)
-      throw InputError(name + ":" + std::to_string(line) + ": brackets nested deeper than " +
-                       std::to_string(deepest_nesting));
-  }
-}
+constexpr std::size_t longest_advised = 1000;  // [bytes] of a line
 
 // The parser's first line without its own function names: "[error] toml::parse_x: what".
 std::string reason(const std::string& what) {
@@ -95,12 +49,34 @@ std::string written_out(const std::string& text, std::size_t point) {
          (no_fraction ? zero : "") + text.substr(fraction, end - fraction);
 }
 
-// Of a line "key = value" with a decimal comma, points between thousands, or a word without quotes; empty for
-// others.
+// Characters that word processors put in place of those of TOML; empty without one.
+std::string advice_on_characters(const std::string& line) {
+  struct Character {
+    const char *bytes, *advice;
+  };
+  constexpr std::array<Character, 9> characters{
+      {{"\u201c", "straight quotes: write \""},
+       {"\u201d", "straight quotes: write \""},
+       {"\u201e", "straight quotes: write \""},
+       {"\u2018", "straight quotes: write '"},
+       {"\u2019", "straight quotes: write '"},
+       {"\u00ab", "straight quotes: write \""},
+       {"\u2212", "a minus sign from the keyboard: write -"},
+       {"\u2013", "a minus sign from the keyboard: write -"},
+       {"\u00a0", "it holds a no-break space: write a common one"}}};
+  for (const Character& c : characters)
+    if (line.find(c.bytes) != std::string::npos) return std::string("; ") + c.advice;
+  return "";
+}
+
+// Of a line "key = value" with a decimal comma, points between thousands, a unit, Fortran's exponent, or a
+// word without quotes; empty for others.
 std::string advice_on_value(const std::string& line) {
   static const std::regex comma(R"(=\s*([-+]?\d+),(\d+)\s*(#.*)?$)"),
       word(R"(=\s*([A-Za-z][\w-]*)\s*(#.*)?$)"),
-      thousands(R"(=\s*([-+]?\d{1,3}(,\d{3})+(\.\d*)?)\s*(#.*)?$)");
+      thousands(R"(=\s*([-+]?\d{1,3}(,\d{3})+(\.\d*)?)\s*(#.*)?$)"),
+      exponent(R"(=\s*([-+]?\d+(\.\d*)?)[dD]([-+]?\d+)\s*(#.*)?$)"),
+      unit(R"(=\s*([-+]?\d+(\.\d+)?([eE][-+]?\d+)?)\s*([A-Za-z%][^#"',=]*)(#.*)?$)");
   std::smatch found;
   if (std::regex_search(line, found, thousands)) {
     std::string plain = found[1];
@@ -112,11 +88,20 @@ std::string advice_on_value(const std::string& line) {
     return "; a decimal point, not a comma: write " + found[1].str() + "." + found[2].str();
   if (std::regex_search(line, found, word))
     return "; words stand in quotes: write \"" + found[1].str() + "\"";
+  if (std::regex_search(line, found, exponent))
+    return "; the exponent has an e: write " + found[1].str() + "e" + found[3].str();
+  if (std::regex_search(line, found, unit) && found[4].str().find_first_of("xXob") != 0)
+    return "; numbers stand without a unit: write " + found[1].str() +
+           ", in the unit that slagflow help tells";
+  if (std::count(line.begin(), line.end(), '{') > std::count(line.begin(), line.end(), '}'))
+    return "; a table in braces stands on one line";
   return "";
 }
 
 // What to write instead of the first such number outside of strings; empty without one.
 std::string advice(const std::string& line) {
+  if (std::string better = advice_on_characters(line); !better.empty()) return better;
+  if (line.size() > longest_advised) return "";  // the search for others recurses with the length
   if (std::string better = advice_on_value(line); !better.empty()) return better;
   char quote = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -155,7 +140,8 @@ Toml parse_override_value(const std::string& text, const std::string& name) {
     throw;
   } catch (const std::exception&) {
     // Not TOML: a bare word such as jacobi is taken as a string.
-    if (const std::string better = advice(text); !better.empty())
+    const bool number = text.find_first_not_of("+-.,0123456789") == std::string::npos;
+    if (const std::string better = advice(number ? "v = " + text : text); !better.empty())
       throw InputError(name + ": not TOML" + better);
   }
   std::string quoted = "\"";
@@ -164,6 +150,11 @@ Toml parse_override_value(const std::string& text, const std::string& name) {
     quoted += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
   }
   return parse_stream("v = " + quoted + "\"", name).at("v");
+}
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t"), last = text.find_last_not_of(" \t");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
 std::vector<std::string> split_key(const std::string& key) {
@@ -177,13 +168,26 @@ std::vector<std::string> split_key(const std::string& key) {
   return parts;
 }
 
+// Of the entry that has this name, or nothing.
+std::string number_of(const std::vector<Toml>& entries, const std::string& name) {
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    if (!entries[k].is_table()) continue;
+    const auto found = entries[k].as_table().find("name");
+    if (found != entries[k].as_table().end() && found->second.is_string() &&
+        found->second.as_string().str == name)
+      return "; entries go by number, and " + in_quotes(name) + " is " + std::to_string(k);
+  }
+  return "";
+}
+
 Toml& list_entry(Toml& list, const std::string& part, const std::string& name) {
   auto& entries = list.as_array();
   std::size_t index = 0;
   const auto [end, failure] = std::from_chars(part.data(), part.data() + part.size(), index);
   if (failure != std::errc() || end != part.data() + part.size() || index >= entries.size())
     throw InputError(name + ": '" + part + "' is not an entry of this list: allowed: " +
-                     (entries.empty() ? "none, it is empty" : "0 to " + std::to_string(entries.size() - 1)));
+                     (entries.empty() ? "none, it is empty" : "0 to " + std::to_string(entries.size() - 1)) +
+                     number_of(entries, part));
   return entries[index];
 }
 
@@ -201,36 +205,50 @@ Toml& child(Toml& node, const std::string& part, const std::string& name) {
 
 }  // namespace
 
-Toml parse_toml(const std::string& text, const std::string& name) {
+TomlFile::TomlFile(const std::string& given, const std::string& name) : name_(name) {
+  const std::string text = with_line_feeds(given);
   check_encoding(text, name);
   check_nesting(text, name);
+  const BrokenText broken = break_long_lines(text);
+  lines_ = broken.lines;
   try {
-    return parse_stream(text, name);
+    root_ = parse_stream(broken.text, name);
   } catch (const toml::exception& e) {
-    const std::string line = line_of(text, e.location().line());
-    constexpr std::size_t most_shown = 80;
-    throw InputError(name + ":" + std::to_string(e.location().line()) + ": not TOML: " + reason(e.what()) +
-                     ", in \"" + line.substr(0, most_shown) + "\"" + advice(line));
+    const long line = number_of(e.location().line());
+    throw InputError(name + ":" + std::to_string(line) + ": not TOML: " + shortened(reason(e.what()), 200) +
+                     ", in " + in_quotes(line_of(text, static_cast<std::size_t>(line))) +
+                     advice(line_of(text, static_cast<std::size_t>(line))));
   } catch (const std::exception& e) {
     throw InputError(name + ": not TOML: " + reason(e.what()));
   }
 }
 
+long TomlFile::number_of(std::size_t parsed_line) const {
+  return parsed_line >= 1 && parsed_line <= lines_.size() ? lines_[parsed_line - 1].number : 1;
+}
+
+// The parser would count all lines before a value anew.
+Place TomlFile::place_of(const Toml& value) const {
+  const auto* const region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+  if (!region) return {name_ + ":1", 1};
+  if (region->name().rfind(override_prefix, 0) == 0) return {region->name(), override_order};
+  const auto at = static_cast<std::size_t>(region->first() - region->begin());
+  const auto next =
+      std::upper_bound(lines_.begin(), lines_.end(), at,
+                       [](std::size_t offset, const TextLine& line) { return offset < line.begin; });
+  const long line = number_of(static_cast<std::size_t>(next - lines_.begin()));
+  return {name_ + ":" + std::to_string(line), line};
+}
+
 void apply_override(Toml& root, const std::string& assignment) {
-  const std::string name = override_prefix + assignment;
+  const std::string name = override_prefix + shortened(assignment);
   const auto equals = assignment.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError(name + ": allowed: --set dotted.key=value");
   Toml* node = &root;
-  for (const std::string& part : split_key(assignment.substr(0, equals))) node = &child(*node, part, name);
+  for (const std::string& part : split_key(trimmed(assignment.substr(0, equals))))
+    node = &child(*node, part, name);
   *node = parse_override_value(assignment.substr(equals + 1), name);
-}
-
-Place place_of(const Toml& value) {
-  const auto location = value.location();
-  const std::string& name = location.file_name();
-  if (name.rfind(override_prefix, 0) == 0) return {name, after_every_line};
-  return {name + ":" + std::to_string(location.line()), static_cast<long>(location.line())};
 }
 
 std::string show(double number) {
@@ -242,9 +260,30 @@ std::string show(double number) {
   return shown;
 }
 
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  std::size_t end = most;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // within a character
+  return text.substr(0, end) + "...";
+}
+
+std::string in_quotes(const std::string& text) { return "\"" + shortened(text) + "\""; }
+
+namespace {
+
+// What a double does not hold becomes its largest or 0: then as the file has it.
+std::string show_as_given(const Toml& value) {
+  const double number = value.as_floating();
+  const auto* const region = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+  const bool lost = number == 0 || std::abs(number) == std::numeric_limits<double>::max();
+  return lost && region ? shortened(region->str()) : show(number);
+}
+
+}  // namespace
+
 std::string show(const Toml& value) {
-  if (value.is_floating()) return show(value.as_floating());
-  if (value.is_string()) return "\"" + value.as_string().str + "\"";
+  if (value.is_floating()) return show_as_given(value);
+  if (value.is_string()) return in_quotes(value.as_string().str);
   if (value.is_table()) return "{...}";
   if (!value.is_array()) return toml::format(value);
   std::string shown = "[";

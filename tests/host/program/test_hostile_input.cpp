@@ -121,7 +121,7 @@ TEST(HostileInput, EachWrongOverrideIsRefusedByItsName) {
       parse_case(tiny_case(), "tiny.toml", {wrong.given});
       FAIL() << "accepted: " << wrong.given;
     } catch (const InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr("--set " + wrong.given));
+      EXPECT_THAT(error.what(), HasSubstr("--set " + wrong.given.substr(0, 80)));
       EXPECT_THAT(error.what(), HasSubstr(wrong.fragment));
       messages.insert(error.what());
     }
