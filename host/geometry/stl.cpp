@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "backend/error.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/stl_bodies.hpp"
+#include "host/geometry/stl_formats.hpp"
 
 namespace slagflow {
 namespace {
@@ -35,11 +37,17 @@ std::string read_bytes(const std::string& file) {
   return bytes;
 }
 
-void check_finite(const Triangle& triangle, std::size_t index, const std::string& file) {
+std::string text_of(Vec3d v) {
+  char text[100];
+  std::snprintf(text, sizeof text, "(%.7g, %.7g, %.7g)", v.x, v.y, v.z);
+  return text;
+}
+
+void check_finite(const Triangle& triangle, std::size_t index, const std::string& place) {
   for (const Vec3d& v : triangle)
     if (!(std::abs(v.x) + std::abs(v.y) + std::abs(v.z) < 1e30))  // catches not-a-number as well
-      throw InputError(file + ": triangle " + std::to_string(index) +
-                       " has a coordinate that is not a number or beyond 1e30");
+      throw InputError(place + ": triangle " + std::to_string(index) +
+                       " has a coordinate that is not a number or beyond 1e30: " + text_of(v));
 }
 
 std::size_t declared_count(const std::string& bytes) {
@@ -56,7 +64,7 @@ std::vector<Triangle> read_binary(const std::string& bytes, const std::string& f
     std::memcpy(numbers, bytes.data() + header_bytes + t * triangle_bytes, sizeof numbers);
     for (std::size_t c = 0; c < 3; ++c)
       triangles[t][c] = {numbers[3 * c + 3], numbers[3 * c + 4], numbers[3 * c + 5]};
-    check_finite(triangles[t], t, file);
+    check_finite(triangles[t], t, file + ", byte " + std::to_string(header_bytes + t * triangle_bytes));
   }
   return triangles;
 }
@@ -68,14 +76,15 @@ class Words {
 
   // The next word in lower case; empty at the end of the file.
   std::string next() {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])))
-      if (text_[at_++] == '\n') ++line_;
+    for (; at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])); ++at_)
+      if (text_[at_] == '\n' || (text_[at_] == '\r' && text_.compare(at_, 2, "\r\n") != 0)) ++line_;
     std::string word;
     while (at_ < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at_])))
       word += static_cast<char>(std::tolower(static_cast<unsigned char>(text_[at_++])));
     return word;
   }
-  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
+  void skip_line() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
+  std::string place() const { return file_ + ":" + std::to_string(line_); }
   void expect(const char* wanted) {
     const std::string word = next();
     if (word != wanted) fail(std::string("'") + wanted + "'", word);
@@ -84,12 +93,14 @@ class Words {
     const std::string word = next();
     char* end = nullptr;
     const double value = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end) fail("a number", word);
+    const bool comma = std::count(word.begin(), word.end(), ',') == 1;
+    if (word.empty() || *end) fail(comma ? "a number, with a decimal point," : "a number", word);
     return value;
   }
   [[noreturn]] void fail(const std::string& wanted, const std::string& found) const {
-    throw InputError(file_ + ":" + std::to_string(line_) + ": " + wanted + " expected, found " +
-                     (found.empty() ? "the end of the file" : "'" + found.substr(0, 40) + "'"));
+    throw InputError(
+        place() + ": " + wanted + " expected, found " +
+        (found.empty() ? "the end of the file: it is cut short" : "'" + shortened(found, 40) + "'"));
   }
 
  private:
@@ -123,7 +134,7 @@ std::vector<Triangle> read_ascii(const std::string& text, const std::string& fil
   for (std::string word = words.next(); open || !word.empty(); word = words.next()) {
     if (open && word == "facet") {
       triangles.push_back(read_facet(words));
-      check_finite(triangles.back(), triangles.size() - 1, file);
+      check_finite(triangles.back(), triangles.size() - 1, words.place());
     } else if (open ? word == "endsolid" : word == "solid") {
       open = !open;
       words.skip_line();
@@ -186,8 +197,6 @@ std::vector<Corners> weld(const std::vector<Triangle>& triangles) {
   return welded;
 }
 
-std::string text_of(Vec3d v) { return "(" + show(v.x) + ", " + show(v.y) + ", " + show(v.z) + ")"; }
-
 // Every edge must be run through as often one way as the other. Places are those of the file.
 void check_closed(const std::vector<Triangle>& triangles, const std::vector<Corners>& corners,
                   double tolerance, const std::string& name) {
@@ -223,23 +232,14 @@ void check_closed(const std::vector<Triangle>& triangles, const std::vector<Corn
                      ": allowed: corners in the same sense all over the surface");
 }
 
-// What a file is that is no STL, by how it begins; empty where that says nothing.
-std::string other_format(const std::string& bytes, std::size_t first) {
-  struct Format {
-    const char *beginning, *name;
-  };
-  constexpr std::array<Format, 9> formats{{{"v ", "a Wavefront OBJ file"},
-                                           {"mtllib", "a Wavefront OBJ file"},
-                                           {"o ", "a Wavefront OBJ file"},
-                                           {"#", "a Wavefront OBJ file, or another text"},
-                                           {"ply", "a PLY file"},
-                                           {"OFF", "an OFF file"},
-                                           {"ISO-10303", "a STEP file"},
-                                           {"PK", "a ZIP archive, as 3MF is"},
-                                           {"\xff\xfe", "UTF-16 text"}}};
-  for (const Format& format : formats)
-    if (bytes.compare(first, std::string(format.beginning).size(), format.beginning) == 0) return format.name;
-  return "";
+// One corner that is far away makes all others one.
+std::string far_corner(const std::vector<Triangle>& triangles) {
+  Vec3d farthest = triangles.front()[0];
+  for (const Triangle& t : triangles)
+    for (const Vec3d& v : t)
+      if (norm(v) > norm(farthest)) farthest = v;
+  return ": corners closer than " + show(weld_tolerance(triangles)) +
+         " count as one, 1e-5 of the extent; the farthest corner is " + text_of(farthest);
 }
 
 // Binary: as many triangles as the header announces, and less than one more: some writers round the size up.
@@ -249,17 +249,18 @@ bool is_binary(const std::string& bytes, std::size_t count) {
   return rest / triangle_bytes == count && (count > 0 || rest == 0);
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& bytes, std::size_t count,
-                         std::size_t first) {
-  const std::string format = first == std::string::npos ? "" : other_format(bytes, first);
+[[noreturn]] void refuse(const std::string& file, const std::string& bytes, std::size_t count) {
+  const std::string format = other_format(bytes);
   if (!format.empty())
     throw InputError(file + ": looks like " + format +
                      ": allowed: an STL file, ASCII or binary, as CAD programs export");
-  throw InputError(file + ": " + std::to_string(bytes.size()) + " bytes, " +
-                   (bytes.size() < header_bytes
-                        ? "too short for an STL file"
-                        : "but its header announces " + std::to_string(count) + " triangles = " +
-                              std::to_string(header_bytes + count * triangle_bytes) + " bytes"));
+  if (bytes.size() < header_bytes)
+    throw InputError(file + ": " + std::to_string(bytes.size()) + " bytes, too short for an STL file");
+  const std::size_t announced = header_bytes + count * triangle_bytes;
+  throw InputError(
+      file + ": " + std::to_string(bytes.size()) + " bytes, but its header announces " +
+      std::to_string(count) + " triangles = " + std::to_string(announced) + " bytes: " +
+      (bytes.size() < announced ? "it is cut short, or no STL file" : "it has too many, or is no STL file"));
 }
 
 bool begins_with_solid(const std::string& bytes, std::size_t first) {
@@ -278,7 +279,8 @@ std::vector<Triangle> read_stl(const std::string& file) {
   const std::string mark = "\xef\xbb\xbf";  // of UTF-8, by some editors
   if (!binary && bytes.compare(0, mark.size(), mark) == 0) bytes.erase(0, mark.size());
   const auto first = bytes.find_first_not_of(" \t\r\n");
-  if (!binary && !begins_with_solid(bytes, first)) refuse(file, bytes, count, first);
+  const bool ascii = begins_with_solid(bytes, first) && bytes.find('\0') == std::string::npos;
+  if (!binary && !ascii) refuse(file, bytes, count);
   std::vector<Triangle> triangles = binary ? read_binary(bytes, file) : read_ascii(bytes, file);
   if (triangles.empty()) throw InputError(file + ": holds no triangle");
   return triangles;
@@ -294,7 +296,7 @@ std::vector<Triangle> closed_surface(const std::vector<Triangle>& triangles, con
     surface.push_back(triangles[t]);
     corners.push_back(c);
   }
-  if (surface.empty()) throw InputError(name + ": no triangle has an area");
+  if (surface.empty()) throw InputError(name + ": no triangle has an area" + far_corner(triangles));
   check_closed(surface, corners, weld_tolerance(triangles), name);
   turn_bodies_outward(surface, corners, name);
   return surface;
