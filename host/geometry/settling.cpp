@@ -60,14 +60,16 @@ double automatic_background(const Case& resolved, const Filling& filling, bool c
   double background = 0;
   for (const RegionSpec& region : resolved.regions) {
     const double density = resolved.fluids[static_cast<std::size_t>(region.fluid)].density;
-    const double share = compression + settling_loss(resolved.numerics.kernel, region.jitter);
+    const double share = compression + settling_loss(resolved.numerics, region.jitter);
     background = larger(background, share * density * square(resolved.numerics.sound_speed));
   }
   return background;
 }
 
-double settling_loss(SmoothingKind kernel, double jitter) {
-  return kernel == SmoothingKind::lucy ? 0.2 * jitter * jitter : 0.12 * jitter;
+double settling_loss(const NumericsSetup& numerics, double jitter) {
+  const double shifted = 1 - 0.6 * smaller(1.0, 2.5 * larger(numerics.shifting, 0.0));
+  if (numerics.kernel == SmoothingKind::lucy) return 0.25 * jitter * jitter * shifted;
+  return smaller(0.6 * jitter * jitter * shifted, 0.12 * jitter);
 }
 
 void warn_of_settling(const Case& resolved, const Filling& filling, std::vector<std::string>& warnings) {
@@ -82,7 +84,7 @@ void warn_of_settling(const Case& resolved, const Filling& filling, std::vector<
   for (std::size_t r = 0; r < pressure.size(); ++r) {
     const RegionSpec& region = resolved.regions[r];
     const double density = resolved.fluids[static_cast<std::size_t>(region.fluid)].density;
-    const double loss = settling_loss(resolved.numerics.kernel, region.jitter) * density * c0 * c0;
+    const double loss = settling_loss(resolved.numerics, region.jitter) * density * c0 * c0;
     if (pressure[r] < 0 || loss <= tolerated * (pressure[r] + borne)) continue;
     std::array<char, 300> text{};
     std::snprintf(

@@ -40,7 +40,7 @@ TEST(Cases, EveryFileLoadsBuildsAsItsCommentSaysAndWritesItselfBack) {
     // Two may lose pressure as they settle: the more of it, the more noise. One is there for what its walls
     // do.
     const char* expected =
-        c.name == "off_lattice" ? "spacings off the lattice" : "fills a closed space, and loses about 24 Pa";
+        c.name == "off_lattice" ? "spacings off the lattice" : "fills a closed space, and loses about 9.6 Pa";
     EXPECT_THAT(built.warnings, testing::Each(testing::HasSubstr(expected)));
     if (const auto count = counts.find(c.name); count != counts.end()) {
       EXPECT_EQ(built.setup.particles.position.size(), count->second);

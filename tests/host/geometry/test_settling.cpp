@@ -60,22 +60,26 @@ double mean_pressure_after(const Case& c, double time) {
 TEST(Settling, LosesPressureByTheJitter) {
   const double stiffness = 1000 * 20 * 20;
   for (const auto kernel : {SmoothingKind::level, SmoothingKind::lucy})
-    for (const double jitter : {0.2, 0.4}) {
-      Case c = closed_box({"region.0.jitter=" + std::to_string(jitter), "numerics.shifting=0"});
-      c.numerics.kernel = kernel;
-      const double lost = (20000 - mean_pressure_after(c, 0.2)) / stiffness;
-      const double told = settling_loss(kernel, jitter);
-      EXPECT_NEAR(lost, told, 0.5 * told)
-          << smoothing_names[static_cast<std::size_t>(kernel)] << " " << jitter;
-    }
+    for (const double shifting : {0.0, 0.3, 1.0})
+      for (const double jitter : {0.1, 0.2, 0.4}) {
+        Case c = closed_box({"region.0.jitter=" + std::to_string(jitter), "limits.max_compression=1"});
+        c.numerics.kernel = kernel;
+        c.numerics.shifting = shifting;
+        const double lost = (20000 - mean_pressure_after(c, 0.2)) / stiffness;
+        const double told = settling_loss(c.numerics, jitter);
+        EXPECT_NEAR(lost, told, 0.5 * told)
+            << smoothing_names[static_cast<std::size_t>(kernel)] << " " << jitter << " " << shifting;
+      }
   EXPECT_NEAR(mean_pressure_after(closed_box({"region.0.jitter=0"}), 0.2), 20000, 0.02 * 20000);
 }
 
 TEST(Settling, OfAClosedSpaceIsTold) {
   // 0.12 x 0.3 x 4e5 Pa.
-  EXPECT_THAT(build_setup(closed_box()).warnings,
+  EXPECT_THAT(build_setup(closed_box({"numerics.shifting=0"})).warnings,
               Contains(testing::AllOf(HasSubstr("region 0 fills a closed space"), HasSubstr("1.4e+04 Pa"),
                                       HasSubstr("pressure = 3.44e+04"))));
+  // 0.6 x 0.4 x 0.09 x 4e5 Pa.
+  EXPECT_THAT(build_setup(closed_box()).warnings, Contains(HasSubstr("loses about 8.6e+03 Pa")));
   const auto told = Contains(HasSubstr("closed space"));
   for (const char* harmless :
        {"region.0.jitter=0", "region.0.jitter=0.03",
@@ -94,7 +98,9 @@ TEST(Settling, AClosedSpaceOfNoPressureGetsABackground) {
   const std::string none = "region.0.pressure=zero", smooth = "region.0.jitter=0";
   const double stiffness = 1000 * 20 * 20;
   EXPECT_DOUBLE_EQ(start({none, smooth}), 0.01 * stiffness);
-  EXPECT_DOUBLE_EQ(start({none}), (0.01 + settling_loss(SmoothingKind::level, 0.3)) * stiffness);
+  NumericsSetup shifted;
+  shifted.shifting = 1;
+  EXPECT_DOUBLE_EQ(start({none}), (0.01 + settling_loss(shifted, 0.3)) * stiffness);
   EXPECT_DOUBLE_EQ(start({none, "numerics.background_pressure=7"}), 7);
   EXPECT_DOUBLE_EQ(start({"region.0.pressure=300", "numerics.background_pressure=7"}), 307);
   EXPECT_DOUBLE_EQ(start({"region.0.pressure=300"}), 300);
