@@ -10,6 +10,7 @@
 
 #include "backend/error.hpp"
 #include "host/geometry/region_fields.hpp"
+#include "host/geometry/region_survey.hpp"
 #include "host/geometry/start_pressure.hpp"
 #include "host/geometry/wall_survey.hpp"
 
@@ -72,14 +73,18 @@ class Filler {
     const Solid solid = make_solid(c_, region.shapes, region.subtract, key);
     FluidParticles& out = result_.fluid;
     const std::size_t first = out.position.size();
+    RegionSites sites;
+    sites.in_wall.assign(c_.walls.size(), 0);
     lattice_.visit_inside(
         [&](Vec3d p) { return solid.distance(p); },
         [&](const SiteIndex& s, Vec3d p) {
-          std::uint8_t& flags = flags_[lattice_.linear(s)];
-          if (!lattice_.in_domain(s) || body_[lattice_.linear(s)] != 0 || (flags & fluid)) return;
+          if (!is_free(s, sites)) return;
           const std::optional<Vec3d> place = off_walls(p);
-          if (!place) return;
-          flags |= fluid;
+          if (!place) {
+            ++sites.without_room;
+            return;
+          }
+          flags_[lattice_.linear(s)] |= fluid;
           check_room();
           out.position.push_back(region.jitter > 0 ? jittered(*place, region.jitter) : *place);
           out.velocity.push_back(initial_velocity(region, out.position.back()));
@@ -87,10 +92,21 @@ class Filler {
         });
     if (out.position.size() == first)
       throw InputError(c_.place_of(key) + ": key '" + key +
-                       "': no particle: allowed: shapes that hold a lattice site " + plane() +
-                       "inside the domain, " + "outside of walls and of earlier regions");
+                       "': " + reason_without_particle(c_, region, solid, sites));
+    for (std::string& warning : cut_warnings(c_, r, solid, sites))
+      result_.warnings.push_back(std::move(warning));
     out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
     region_.resize(out.position.size(), static_cast<std::uint32_t>(r));
+  }
+
+  // Whether a site in the domain is in no wall and no earlier region; counts what it is.
+  bool is_free(const SiteIndex& s, RegionSites& sites) const {
+    if (!lattice_.in_domain(s)) return false;
+    ++sites.all;
+    const std::size_t at = lattice_.linear(s);
+    if (body_[at] != 0) ++sites.in_walls, ++sites.in_wall[body_[at] - std::size_t{1}];
+    if (flags_[at] & fluid) ++sites.in_earlier_regions;
+    return body_[at] == 0 && !(flags_[at] & fluid);
   }
 
   // Where the sites are.
@@ -101,9 +117,9 @@ class Filler {
     const std::vector<std::uint8_t>& bodies = result_.walls.body;
     for (std::size_t b = 0; b < c_.walls.size(); ++b)
       if (std::find(bodies.begin(), bodies.end(), b) == bodies.end())
-        result_.warnings.push_back("wall '" + c_.walls[b].name +
-                                   "' has no particle: its shapes hold no lattice site " + plane() +
-                                   "near the inside of the domain, or other walls have them");
+        result_.warnings.push_back(
+            "wall '" + c_.walls[b].name + "' has no particle: its shapes hold no lattice site " + plane() +
+            "near the inside of the domain, or other walls have them" + unit_hint(c_, c_.walls[b].shapes));
   }
 
   // A site, or the place a quarter of a spacing off the wall that it is nearer to than that: a curved or

@@ -27,6 +27,12 @@ std::string gigabytes(double bytes) {
 
 namespace {
 
+std::string rounded(double count) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.4g", count);
+  return text;
+}
+
 // First site at or above a coordinate, counted from the origin.
 double site_above(double coordinate, double origin, double spacing) {
   return std::ceil((coordinate - origin) / spacing - 0.5 - tie);
@@ -62,7 +68,7 @@ Lattice::Lattice(const Case& c)
     if (!(std::abs(first) < largest_index && std::abs(last) < largest_index))
       throw InputError(c.place_of("resolution.spacing") + ": key 'resolution.spacing': value " +
                        show(spacing_) + ": the domain reaches more than 1e9 spacings from the origin: " +
-                       "allowed: a larger spacing or a smaller domain");
+                       "allowed: a larger spacing, a smaller domain, or a resolution.origin near it");
     const std::int64_t margin = periodic_[axis] ? 0 : layers_;
     first_[axis] = static_cast<std::int64_t>(first) - margin;
     count_[axis] = static_cast<std::int64_t>(last - first) + 2 * margin;
@@ -73,7 +79,7 @@ Lattice::Lattice(const Case& c)
   const double available = available_memory();
   if (sites * bytes_per_site > available)
     throw InputError(c.place_of("resolution.spacing") + ": key 'resolution.spacing': the domain holds " +
-                     std::to_string(sites) + " lattice sites and needs " + gigabytes(sites * bytes_per_site) +
+                     rounded(sites) + " lattice sites and needs " + gigabytes(sites * bytes_per_site) +
                      " of memory, " + gigabytes(available) +
                      " are available: allowed: a larger spacing or a smaller domain");
 }

@@ -1,14 +1,13 @@
 #include "host/geometry/setup_builder.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 
 #include "backend/error.hpp"
-#include "host/case/toml_reader.hpp"
+#include "host/geometry/enclosed.hpp"
 #include "host/geometry/geometry.hpp"
 #include "host/geometry/settling.hpp"
+#include "host/geometry/setup_warnings.hpp"
+#include "host/geometry/start_survey.hpp"
 
 namespace slagflow {
 namespace {
@@ -21,55 +20,6 @@ double automatic_sound_speed(const Case& c, const std::vector<SoundSpeedTerm>& t
         ": key 'numerics.sound_speed': value \"auto\" gives 0 without gravity or anything that moves at the "
         "start: allowed: a number > 0 [m/s], about ten times the largest speed");
   return speed;
-}
-
-// Fast walls compress the fluid in front of them.
-void warn_of_fast_walls(const std::vector<double>& speeds, const SimulationSetup& setup,
-                        std::vector<std::string>& warnings) {
-  constexpr double fast = 0.2;  // of the sound speed
-  for (std::size_t b = 0; b < setup.bodies.size(); ++b)
-    if (speeds[b] > fast * setup.numerics.sound_speed)
-      warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speeds[b]) +
-                         " m/s: numerics.sound_speed, " + std::to_string(setup.numerics.sound_speed) +
-                         " m/s, should be ten times that");
-}
-
-void warn_of_unused_fluids(const Case& c, std::vector<std::string>& warnings) {
-  for (std::size_t f = 0; f < c.fluids.size(); ++f) {
-    const auto has_it = [&](const RegionSpec& r) { return static_cast<std::size_t>(r.fluid) == f; };
-    if (std::none_of(c.regions.begin(), c.regions.end(), has_it))
-      warnings.push_back("fluid '" + c.fluids[f].name + "' is in no region: the case does not use it");
-  }
-}
-
-// Slags, metals and oils are heavier than that.
-void warn_of_light_fluids(const Case& c, std::vector<std::string>& warnings) {
-  constexpr double light = 100;  // [kg/m^3]
-  for (const FluidSpec& fluid : c.fluids)
-    if (fluid.density < light)
-      warnings.push_back("fluid '" + fluid.name + "': a density of " + show(fluid.density) +
-                         " kg/m^3; is it meant in g/cm^3? Then density = " + show(1000 * fluid.density));
-}
-
-// A drop at rest is stirred by the pull between its unevenly spaced particles: at this number of 0.3, 0.1,
-// 0.03 and 0.01 at 0.02, 0.06, 0.2 and 0.4 times the speed of capillary waves of the spacing (measured on
-// cases/verification/drop.toml; in 3-D and on walls less).
-void warn_of_currents(const Case& c, std::vector<std::string>& warnings) {
-  constexpr double enough = 0.1;
-  for (const FluidSpec& fluid : c.fluids) {
-    if (!(fluid.surface_tension > 0)) continue;
-    const double speed = std::sqrt(fluid.surface_tension / (fluid.density * c.spacing));
-    const auto eta = static_cast<double>(viscosity(fluid.law(), static_cast<Real>(speed / c.spacing)));
-    const double number = eta / std::sqrt(fluid.density * fluid.surface_tension * c.spacing);
-    if (number >= enough) continue;
-    std::array<char, 300> text{};
-    std::snprintf(
-        text.data(), text.size(),
-        "fluid '%s': surface tension is strong against viscosity at this spacing, eta/sqrt(rho sigma "
-        "spacing) = %.2g: below %g false currents of up to about %.2g m/s stir its surface",
-        fluid.name.c_str(), number, enough, 0.4 * speed);
-    warnings.emplace_back(text.data());
-  }
 }
 
 FluidSetup fluid_setup(const FluidSpec& spec) {
@@ -121,7 +71,8 @@ BuiltCase build_setup(const Case& c) {
   if (background < 0) background = automatic_background(built.resolved, filling, closed);
   for (double& pressure : filling.fluid.pressure) pressure += background;
   warn_of_settling(built.resolved, filling, built.warnings);
-  warn_of_currents(c, built.warnings);
+  warn_of_start(c, filling, built.warnings);
+  warn_of_crushed_fluid(c, *filling.sites, built.warnings);
   const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);
 
   SimulationSetup& setup = built.setup;
@@ -143,9 +94,7 @@ BuiltCase build_setup(const Case& c) {
   if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
   setup.limits = built.resolved.limits;
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
-  warn_of_unused_fluids(c, built.warnings);
-  warn_of_light_fluids(c, built.warnings);
-  warn_of_fast_walls(wall_speeds, setup, built.warnings);
+  warn_of_setup(built, wall_speeds);
   return built;
 }
 

@@ -34,6 +34,8 @@ class Box final : public Form {
     return inside > 0 ? std::sqrt(outside) : inside;
   }
 
+  Extents extents() const override { return {min_, max_}; }
+
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
     for (int k = 0; k < 3; ++k) {
       feet.push_back({projected(p, k, min_[k]), unit(k, -1)});
@@ -57,6 +59,7 @@ class HalfSpace final : public Form {
   explicit HalfSpace(const PlaneSpec& s) : point_(s.point), normal_(s.normal * (1 / norm(s.normal))) {}
 
   double distance(Vec3d p) const override { return dot(p - point_, normal_); }
+  Extents extents() const override { return Extents::endless(); }
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
     feet.push_back({p - distance(p) * normal_, normal_});
   }
@@ -89,6 +92,14 @@ class Cylinder final : public Form {
     const double cap = std::max(-at.along, at.along - length_);
     if (side > 0 && cap > 0) return std::hypot(side, cap);
     return std::max(side, cap);
+  }
+
+  Extents extents() const override {
+    Vec3d half;
+    for (int k = 0; k < 3; ++k) half[k] = radius_ * std::sqrt(std::max(0.0, 1 - axis_[k] * axis_[k]));
+    Extents all;
+    for (const Vec3d& end : {start_, start_ + length_ * axis_}) all.add(end - half), all.add(end + half);
+    return all;
   }
 
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
@@ -128,6 +139,10 @@ class Sphere final : public Form {
   explicit Sphere(const SphereSpec& s) : center_(s.center), radius_(s.radius) {}
 
   double distance(Vec3d p) const override { return norm(p - center_) - radius_; }
+  Extents extents() const override {
+    const Vec3d half{radius_, radius_, radius_};
+    return {center_ - half, center_ + half};
+  }
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
     feet.push_back({center_ + radius_ * away(p), away(p)});
   }
@@ -172,6 +187,12 @@ double Solid::distance(Vec3d p) const {
   for (const Shape& shape : shapes_) nearest = std::min(nearest, shape.distance(p));
   for (const Shape& limit : limits_) nearest = std::max(nearest, limit.distance(p));
   return nearest;
+}
+
+Extents Solid::extents() const {
+  Extents all;
+  for (const Shape& shape : shapes_) all.add(shape.extents());
+  return all;
 }
 
 void Solid::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {

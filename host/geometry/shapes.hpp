@@ -1,6 +1,8 @@
 // Bodies that regions and walls are made of, as signed distances and nearest surface points.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -15,12 +17,25 @@ struct Foot {
   Vec3d normal;  // unit vector out of the body
 };
 
+// A box that holds a body; infinite where that has no end.
+struct Extents {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3d lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
+
+  void add(Vec3d p) {
+    for (int k = 0; k < 3; ++k) lower[k] = std::min(lower[k], p[k]), upper[k] = std::max(upper[k], p[k]);
+  }
+  void add(const Extents& e) { add(e.lower), add(e.upper); }
+  static Extents endless() { return {{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}}; }
+};
+
 // A closed form with a boundary.
 class Form {
  public:
   virtual ~Form() = default;
   // Signed distance to the boundary [m], negative inside; its magnitude may be too small but not too large.
   virtual double distance(Vec3d p) const = 0;
+  virtual Extents extents() const = 0;
   // For p inside: candidates for the nearest point of the boundary.
   virtual void inner_feet(Vec3d p, std::vector<Foot>& feet) const = 0;
   // For p outside, when all that is outside is solid: the faces that p is beyond, normals into the form.
@@ -42,6 +57,7 @@ class Shape {
   double distance(Vec3d p) const { return sign_ * form_->distance(p); }
   // For p inside: candidates within `reach` [m], and perhaps others, with normals out of the shape.
   void feet(Vec3d p, double reach, std::vector<Foot>& feet) const;
+  Extents extents() const { return sign_ > 0 ? form_->extents() : Extents::endless(); }
   Shape complement() const { return Shape(form_, sign_ > 0); }
 
  private:
@@ -59,6 +75,8 @@ class Solid {
   // As Form::distance.
   double distance(Vec3d p) const;
   bool contains(Vec3d p) const { return distance(p) < 0; }
+  // Of the union, whatever is taken away.
+  Extents extents() const;
   // For p inside: candidates from every surface that may be within `reach` [m].
   void feet(Vec3d p, double reach, std::vector<Foot>& feet) const;
 

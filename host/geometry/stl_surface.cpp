@@ -55,12 +55,7 @@ double solid_angle(const Triangle& t, Vec3d p) {
   return 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
-struct Bounds {
-  Vec3d lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
-
-  void add(Vec3d p) {
-    for (int k = 0; k < 3; ++k) lower[k] = std::min(lower[k], p[k]), upper[k] = std::max(upper[k], p[k]);
-  }
+struct Bounds : Extents {
   double squared_distance(Vec3d p) const {
     double sum = 0;
     for (int k = 0; k < 3; ++k) sum += square(std::max({lower[k] - p[k], p[k] - upper[k], 0.0}));
@@ -92,6 +87,7 @@ class Surface final : public Form {
     const double d = std::sqrt(squared_distance(p));
     return inside(p) ? -d : d;
   }
+  Extents extents() const override { return nodes_.front().bounds; }
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override { add_feet(p, 1, feet); }
   void outer_feet(Vec3d p, std::vector<Foot>& feet) const override { add_feet(p, -1, feet); }
 

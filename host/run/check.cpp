@@ -137,6 +137,8 @@ void add_sound_speeds(CaseCheck& check, const BuiltCase& built) {
   }
 }
 
+constexpr double most_steps = 1e9;
+
 void add_warnings(CaseCheck& check, const BuiltCase& built) {
   check.warnings = built.warnings;
   if (check.mach > 0.15)
@@ -155,6 +157,11 @@ void add_warnings(CaseCheck& check, const BuiltCase& built) {
   if (check.memory > 0.9 * memory)
     check.warnings.push_back(format("the run needs about %.2g GB, this machine has %.2g GB of memory",
                                     check.memory / 1e9, memory / 1e9));
+  if (check.steps > most_steps)
+    check.warnings.push_back(format(
+        "%.2g steps to output.end_time = %g s, more than 1e9: a run of years; an earlier end_time, a larger "
+        "resolution.spacing or a lower numerics.sound_speed, which is %.4g m/s, makes it shorter",
+        check.steps, built.resolved.output.last_time(), check.sound_speed));
   if (check.depth < 4 * check.spacing || check.width < 4 * check.spacing)
     check.warnings.push_back("the fluid is less than 4 particles deep or wide: the resolution is too coarse");
 }

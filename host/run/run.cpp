@@ -104,7 +104,7 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   clear_folder(folder);
   log.open(folder + "/log.txt");
   warn_of_threads(options.threads, log);
-  for (const std::string& warning : built.warnings) log.warning(warning);
+  for (const std::string& warning : check_case(built).warnings) log.warning(warning);
   return Run(std::move(built), folder, log, signals).execute();
 }
 

@@ -82,7 +82,8 @@ TEST_F(Program, BadCaseGivesTwoWithFileAndLine) {
 
 TEST_F(Program, RunsACaseAndRefusesToReplaceIt) {
   const std::string folder = folder_ / "out";
-  const Result first = call({"run", case_file(), "--threads", "1", "-o", folder, "--quiet"});
+  const Result first = call(
+      {"run", case_file(), "--threads", "1", "-o", folder, "--quiet", "--set", "measure.0.fraction=0.3"});
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_THAT(first.out, HasSubstr("results in " + folder));
   EXPECT_THAT(first.out, HasSubstr("spread (front): "));
@@ -92,7 +93,9 @@ TEST_F(Program, RunsACaseAndRefusesToReplaceIt) {
   EXPECT_EQ(second.code, 2);
   EXPECT_THAT(second.err, HasSubstr(folder));
   EXPECT_THAT(second.err, HasSubstr("--overwrite"));
-  EXPECT_EQ(call({"run", case_file(), "--threads", "1", "-o", folder, "--overwrite", "--quiet"}).code, 0);
+  const Result third = call({"run", case_file(), "--threads", "1", "-o", folder, "--overwrite", "--quiet"});
+  EXPECT_EQ(third.code, 0);
+  EXPECT_THAT(third.err, HasSubstr("warning: measure 'spread' has arrived at the start already"));
 }
 
 TEST_F(Program, SetsKeysOfTheCase) {

@@ -55,6 +55,11 @@ TEST(CaseCheck, TimeStepNamesItsLimit) {
   built.setup.numerics.max_time_step = 1e-4;
   EXPECT_EQ(check_case(built).time_step, 1e-4);
   EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("max_time_step"));
+  EXPECT_THAT(check_case(built).warnings, testing::Not(testing::Contains(testing::HasSubstr("1e9"))));
+  built.resolved.output.end_time = 2e5;
+  EXPECT_THAT(
+      check_case(built).warnings,
+      testing::Contains(testing::HasSubstr("2e+09 steps to output.end_time = 200000 s, more than 1e9")));
 }
 
 TEST(CaseCheck, ExplicitViscosityIsLimitedByTheFluidAtRest) {

@@ -1,0 +1,31 @@
+// What becomes of the shapes of regions: where they have no particle, and what walls and the domain cut of
+// them.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "host/geometry/geometry.hpp"
+
+namespace slagflow {
+
+// Lattice sites of the domain in the shapes of a region.
+struct RegionSites {
+  std::size_t all = 0, in_walls = 0, in_earlier_regions = 0, without_room = 0;
+  std::vector<std::size_t> in_wall;  // each, of in_walls
+};
+
+// Why a region without a particle has none, and what is allowed.
+std::string reason_without_particle(const Case& c, const RegionSpec& region, const Solid& solid,
+                                    const RegionSites& sites);
+
+// Warnings of what walls and the domain cut of a region, of this index, that has particles.
+std::vector<std::string> cut_warnings(const Case& c, std::size_t index, const Solid& solid,
+                                      const RegionSites& sites);
+
+// Of STL files among the shapes that do not fit the domain, but would in another unit; with "; " before, or
+// empty.
+std::string unit_hint(const Case& c, const std::vector<ShapeSpec>& shapes);
+
+}  // namespace slagflow

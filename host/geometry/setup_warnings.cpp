@@ -1,0 +1,121 @@
+#include "host/geometry/setup_warnings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "host/case/toml_reader.hpp"
+
+namespace slagflow {
+namespace {
+
+// Fast walls compress the fluid in front of them.
+void warn_of_fast_walls(const std::vector<double>& speeds, const SimulationSetup& setup,
+                        std::vector<std::string>& warnings) {
+  constexpr double fast = 0.2;  // of the sound speed
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+    if (speeds[b] > fast * setup.numerics.sound_speed)
+      warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speeds[b]) +
+                         " m/s: numerics.sound_speed, " + std::to_string(setup.numerics.sound_speed) +
+                         " m/s, should be ten times that");
+}
+
+void warn_of_unused_fluids(const Case& c, std::vector<std::string>& warnings) {
+  for (std::size_t f = 0; f < c.fluids.size(); ++f) {
+    const auto has_it = [&](const RegionSpec& r) { return static_cast<std::size_t>(r.fluid) == f; };
+    if (std::none_of(c.regions.begin(), c.regions.end(), has_it))
+      warnings.push_back("fluid '" + c.fluids[f].name + "' is in no region: the case does not use it");
+  }
+}
+
+// Slags, metals and oils are heavier than that.
+void warn_of_light_fluids(const Case& c, std::vector<std::string>& warnings) {
+  constexpr double light = 100;  // [kg/m^3]
+  for (const FluidSpec& fluid : c.fluids)
+    if (fluid.density < light)
+      warnings.push_back("fluid '" + fluid.name + "': a density of " + show(fluid.density) +
+                         " kg/m^3; is it meant in g/cm^3? Then density = " + show(1000 * fluid.density));
+}
+
+// A drop at rest is stirred by the pull between its unevenly spaced particles: at this number of 0.3, 0.1,
+// 0.03 and 0.01 at 0.02, 0.06, 0.2 and 0.4 times the speed of capillary waves of the spacing (measured on
+// cases/verification/drop.toml; in 3-D and on walls less).
+void warn_of_currents(const Case& c, std::vector<std::string>& warnings) {
+  constexpr double enough = 0.1;
+  for (const FluidSpec& fluid : c.fluids) {
+    if (!(fluid.surface_tension > 0)) continue;
+    const double speed = std::sqrt(fluid.surface_tension / (fluid.density * c.spacing));
+    const auto eta = static_cast<double>(viscosity(fluid.law(), static_cast<Real>(speed / c.spacing)));
+    const double number = eta / std::sqrt(fluid.density * fluid.surface_tension * c.spacing);
+    if (number >= enough) continue;
+    std::array<char, 300> text{};
+    std::snprintf(
+        text.data(), text.size(),
+        "fluid '%s': surface tension is strong against viscosity at this spacing, eta/sqrt(rho sigma "
+        "spacing) = %.2g: below %g false currents of up to about %.2g m/s stir its surface",
+        fluid.name.c_str(), number, enough, 0.4 * speed);
+    warnings.emplace_back(text.data());
+  }
+}
+
+// All flows were tried at 2.6.
+void warn_of_support(const Case& c, std::vector<std::string>& warnings) {
+  constexpr double lower = 2.4, upper = 3;
+  if (c.support_ratio >= lower && c.support_ratio <= upper) return;
+  warnings.push_back("resolution.support_ratio = " + show(c.support_ratio) + " is outside of " + show(lower) +
+                     " to " + show(upper) + ", beyond what was tested: flows were tried at 2.6; " +
+                     (c.support_ratio < lower ? "with less the lattice of the particles resists flow"
+                                              : "with more each step takes longer"));
+}
+
+// [Pa] of the fluid without its yield stress: the weight of the deepest body, its start pressure, and
+// viscosity at the fastest speed over a spacing.
+double stress_beside_yield(const BuiltCase& built, std::size_t f, FluidSpec fluid, std::size_t yield) {
+  fluid.parameters[yield] = 0;
+  double fastest = 0, stress = larger(0.0, built.resolved.numerics.background_pressure);
+  for (const SoundSpeedTerm& term : built.sound_speed_terms) {
+    fastest = larger(fastest, term.speed);
+    if (term.name == "depth") stress = larger(stress, 0.5 * fluid.density * square(term.speed));
+  }
+  for (const RegionSpec& region : built.resolved.regions)
+    if (static_cast<std::size_t>(region.fluid) == f) stress = larger(stress, region.uniform_pressure);
+  const double rate = fastest / built.resolved.spacing;
+  return larger(stress, rate * static_cast<double>(viscosity(fluid.law(), static_cast<Real>(rate))));
+}
+
+void warn_of_lost_yield_stress(const BuiltCase& built, std::size_t f, std::vector<std::string>& warnings) {
+  constexpr double digits = static_cast<double>(std::numeric_limits<Real>::epsilon()) / 2;
+  const FluidSpec& fluid = built.resolved.fluids[f];
+  const RheologyInfo& info = fluid.info();
+  for (int k = 0; k < info.parameter_count; ++k) {
+    if (info.parameters[k].role != ParameterRole::yield_stress) continue;
+    const auto index = static_cast<std::size_t>(k);
+    const double yield = fluid.parameters[index], stress = stress_beside_yield(built, f, fluid, index);
+    const bool small = yield < digits * stress;
+    if (!(yield > 0 && stress > 0) || (!small && yield * digits <= stress)) continue;
+    std::array<char, 400> text{};
+    std::snprintf(
+        text.data(), text.size(),
+        "fluid '%s': of a yield_stress of %.3g Pa beside %.3g Pa of weight and viscosity the numbers of the "
+        "computation hold nothing: %s",
+        fluid.name.c_str(), yield, stress,
+        small ? "0 gives the same" : "nothing can make it flow; is it meant in Pa? A solid is a wall");
+    warnings.emplace_back(text.data());
+  }
+}
+
+}  // namespace
+
+void warn_of_setup(BuiltCase& built, const std::vector<double>& wall_speeds) {
+  const Case& c = built.resolved;
+  warn_of_unused_fluids(c, built.warnings);
+  warn_of_light_fluids(c, built.warnings);
+  warn_of_currents(c, built.warnings);
+  warn_of_fast_walls(wall_speeds, built.setup, built.warnings);
+  warn_of_support(c, built.warnings);
+  for (std::size_t f = 0; f < c.fluids.size(); ++f) warn_of_lost_yield_stress(built, f, built.warnings);
+}
+
+}  // namespace slagflow
