@@ -5,8 +5,10 @@
 
 #if defined(__CUDACC__)
 #define HOST_DEVICE __host__ __device__
+#define HOST_DEVICE_INLINED __host__ __device__ __forceinline__
 #else
 #define HOST_DEVICE
+#define HOST_DEVICE_INLINED inline __attribute__((always_inline))
 #endif
 
 #ifndef SLAGFLOW_REAL

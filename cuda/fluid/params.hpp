@@ -110,7 +110,7 @@ struct FaceBetween {
   T depth, distance;
 };
 template <class T, class Face>
-HOST_DEVICE FaceBetween<T> face_between(const WallPairGeometry<T, Face>& pair, Real spacing) {
+HOST_DEVICE_INLINED FaceBetween<T> face_between(const WallPairGeometry<T, Face>& pair, Real spacing) {
   const Vector3<T> d = pair.fluid_minus_wall;
   const T front = dot(d, xyz(pair.normal)) - pair.normal.w, rear = dot(d, xyz(pair.back)) - pair.back.w;
   const auto behind = (pair.back.w > T(0)) & (rear > T(0));
@@ -120,11 +120,11 @@ HOST_DEVICE FaceBetween<T> face_between(const WallPairGeometry<T, Face>& pair, R
 
 // `slip_length`: b [m] >= 0, 0 without slip.
 template <class T>
-HOST_DEVICE T no_slip_factor(const FaceBetween<T>& face, T slip_length) {
+HOST_DEVICE_INLINED T no_slip_factor(const FaceBetween<T>& face, T slip_length) {
   return smaller(T(3), T(1) + (face.depth - slip_length) / (face.distance + slip_length));
 }
 template <class T, class Face>
-HOST_DEVICE T no_slip_factor(const WallPairGeometry<T, Face>& pair, Real spacing, T slip_length) {
+HOST_DEVICE_INLINED T no_slip_factor(const WallPairGeometry<T, Face>& pair, Real spacing, T slip_length) {
   return no_slip_factor(face_between(pair, spacing), slip_length);
 }
 

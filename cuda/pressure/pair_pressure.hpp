@@ -10,7 +10,7 @@ namespace slagflow {
 // pairing_ij: both signs of pressure keep a pair apart when it is closer than the spacing. T: Real or Lanes;
 // r2 is the squared distance.
 template <class T>
-HOST_DEVICE T pairing_pressure(const FlowConstants& flow, T own, T other, T r2) {
+HOST_DEVICE_INLINED T pairing_pressure(const FlowConstants& flow, T own, T other, T r2) {
   if (!(flow.anti_pairing > 0)) return T(0);
   const auto close = r2 < T(square(flow.spacing));
   if (!bits(close)) return T(0);
@@ -29,7 +29,7 @@ HOST_DEVICE inline Real tension_share(const FlowConstants& flow, Real density, R
 // (p_i + p_j) F, each pressure below zero with the slope of the function for tension instead. T: Real or
 // Lanes.
 template <class T>
-HOST_DEVICE T pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
+HOST_DEVICE_INLINED T pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
   const T slope = flow.smoothing.gradient(r2), both = (own + other) * slope, none = Real(0);
   if (!flow.flat_tension) return both;
   const T tension = smaller(own, none) + smaller(other, none);
@@ -39,7 +39,7 @@ HOST_DEVICE T pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
 
 // The same with the pairing term.
 template <class T>
-HOST_DEVICE T pair_pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
+HOST_DEVICE_INLINED T pair_pressure_slope(const FlowConstants& flow, T own, T other, T r2) {
   return pressure_slope(flow, own, other, r2) +
          pairing_pressure(flow, own, other, r2) * flow.smoothing.gradient(r2);
 }

@@ -26,7 +26,7 @@ struct PredictAndAssemble {
   }
 
   HOST_DEVICE void operator()(Index i) const {
-    const Vec3 x = xyz(c.fluid.place[i]), middle = xyz(c.fluid.middle[i]);
+    const Vec3 x = xyz(c.fluid.place[i]);
     const Quad own = c.fluid.state[i];
     const Real factor = implicit_dt * c.flow.operator_factor;
     LaneVec3 pressure, pairing, diagonal;
@@ -47,7 +47,7 @@ struct PredictAndAssemble {
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
         weight = (factor * own.z * volume) * mean * c.flow.smoothing.viscous(r2);
-        diagonal += pair_diagonal(weight, box.separation(in_lanes(middle), xyz(gather(c.fluid.middle, j))));
+        diagonal += pair_diagonal(weight, d);  // a preconditioner: half a step away it serves as well
       }
       store_lanes(&out.weight[at], weight);
     }
