@@ -162,7 +162,8 @@ void Simulation::State::rebuild_lists_as_saved() {
   ordering.find_cells(fluid);
   build_lists();
   fluid.place.swap(list_places);
-  if (exact_yield()) viscous.exact_yield().remember({fluid_list, wall_list, fluid.id, wall.id}, start_count);
+  if (exact_yield())
+    viscous.exact_yield().take_restored({fluid_list, wall_list, fluid.id, wall.id}, start_count);
 }
 
 void Simulation::State::check_departure() const {

@@ -266,6 +266,8 @@ ExactYield::ExactYield(Context& c)
       rounding_(c, "yield sums"),
       stress_(c, "yield sums"),
       row_of_id_(c, "rows of ids"),
+      room_(c, "room of rows"),
+      ordered_(c, "rows in order"),
       fluid_layout_(c, "yield pairs"),
       wall_layout_(c, "yield pairs of walls") {}
 

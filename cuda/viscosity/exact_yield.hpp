@@ -48,8 +48,9 @@ class ExactYield {
   };
   // After the lists were built anew: p goes with its pair. `ids`: more than any fluid particle's id.
   void follow(const Lists&, Index ids);
-  // The same when p belongs to the lists already, as after restoring it; throws Error when it cannot.
-  void remember(const Lists&, Index ids);
+  // After restoring, when the lists of that moment have been built again; throws Error when what was restored
+  // cannot belong to them.
+  void take_restored(const Lists&, Index ids);
 
   // Begins a step, or goes on with one, with other augmentations; the stresses and sheared strain rates stay.
   void begin(const PairContext&, const FluidArrays&, const Augmentation&);
@@ -74,10 +75,14 @@ class ExactYield {
   Span<const Real> held() const { return held_.span(); }
   WallYield walls() const { return {wall_.span(), held_.span()}; }
 
-  // p of a row's own pairs, p of the same pairs in the other particle's row, p of wall pairs, and f.
+  // p of a row's own pairs, p of the same pairs in the other particle's row, p of wall pairs, and f. Rows in
+  // the order of the particles: on the CPU threads put them wherever there is room, and another time
+  // elsewhere. What is restored waits for take_restored().
   template <class Visitor>
   void save(Visitor& v) {
-    v.array("yield_own", own_), v.array("yield_other", other_), v.array("yield_wall", wall_);
+    put_in_order();
+    v.array("yield_own", spare_own_), v.array("yield_other", spare_other_);
+    v.array("yield_wall", spare_wall_);
     v.array("yield_held", held_);
     v.array("yield_augmentation", relative_);
     std::vector<double> unit{static_cast<double>(unit_)};
@@ -94,7 +99,10 @@ class ExactYield {
     Buffer<Index> length, id;
     ListView view() const { return {slice.span(), length.span(), id.span()}; }
   };
+  void remember(const Lists&, Index ids);
   void record(const NeighbourList&, Span<const Index> id, Layout&);
+  Span<const Offset> ordered_rows(const Layout&);
+  void put_in_order();
 
   Context& context_;
   Real unit_ = 0;  // [Pa s] of the augmentations that p belongs to
@@ -104,6 +112,7 @@ class ExactYield {
   Buffer<Real> augmentations_;  // [Pa s]
   Buffer<double> gap_, shear_, rounding_, stress_;
   Buffer<Index> row_of_id_;
+  Buffer<Offset> room_, ordered_;  // of rows in the order of the particles
   Layout fluid_layout_, wall_layout_;
 };
 

@@ -1,6 +1,7 @@
 // Keeps the stresses of an exact yield stress with their pairs when the neighbour lists are built anew.
 #include "backend/error.hpp"
 #include "backend/launch.hpp"
+#include "backend/primitives.hpp"
 #include "viscosity/exact_yield.hpp"
 
 namespace slagflow {
@@ -87,6 +88,23 @@ struct CopySlice {
   HOST_DEVICE void operator()(Index s) const { to[s] = from[s]; }
 };
 
+struct MeasureRow {
+  Span<const Index> length;
+  Span<Offset> room;
+  HOST_DEVICE void operator()(Index i) const { room[i] = whole_lanes(length[i]); }
+};
+
+// Rows in one piece each, from where they begin in one array to where they do in another.
+struct MoveRow {
+  Span<const Index> length;
+  Span<const Offset> from_row, to_row;
+  Span<const Real> from;
+  Span<Real> to;
+  HOST_DEVICE void operator()(Index i) const {
+    for (Offset k = 0; k < whole_lanes(length[i]); ++k) to[to_row[i] + k] = from[from_row[i] + k];
+  }
+};
+
 }  // namespace
 
 void ExactYield::follow(const Lists& lists, Index ids) {
@@ -106,11 +124,48 @@ void ExactYield::follow(const Lists& lists, Index ids) {
   remember(lists, ids);
 }
 
+// Where the rows of a list begin when they follow each other. Slices do so anyway.
+Span<const Offset> ExactYield::ordered_rows(const Layout& layout) {
+  const auto n = static_cast<Index>(layout.length.size());
+  room_.resize(n), ordered_.resize(n + 1);
+  launch(context_, "room of rows", n, MeasureRow{layout.length.span(), room_.span()});
+  exclusive_scan(context_, room_.span(), ordered_.span());
+  return ordered_.span();
+}
+
+void ExactYield::put_in_order() {
+  spare_own_.copy_from(own_), spare_other_.copy_from(other_), spare_wall_.copy_from(wall_);
+  if constexpr (slice_width > 1) return;
+  const auto put = [&](const Layout& layout, Span<const Offset> row, const Buffer<Real>& from,
+                       Buffer<Real>& to) {
+    launch(context_, "yield stresses in order", static_cast<Index>(layout.length.size()),
+           MoveRow{layout.length.span(), layout.slice.span(), row, from.span(), to.span()});
+  };
+  const Span<const Offset> rows = ordered_rows(fluid_layout_);
+  put(fluid_layout_, rows, own_, spare_own_), put(fluid_layout_, rows, other_, spare_other_);
+  put(wall_layout_, ordered_rows(wall_layout_), wall_, spare_wall_);
+}
+
+void ExactYield::take_restored(const Lists& lists, Index ids) {
+  const Offset n = lists.fluid_id.size();
+  const bool fits = spare_own_.size() == lists.fluid.capacity() && spare_other_.size() == spare_own_.size() &&
+                    spare_wall_.size() == lists.wall.capacity() && held_.size() == n && relative_.size() == n;
+  if (!fits) throw Error("checkpoint: its yield stresses do not belong to this case");
+  remember(lists, ids);
+  own_.copy_from(spare_own_), other_.copy_from(spare_other_), wall_.copy_from(spare_wall_);
+  if constexpr (slice_width > 1) return;
+  const auto take = [&](const Layout& layout, Span<const Offset> row, const Buffer<Real>& from,
+                        Buffer<Real>& to) {
+    launch(context_, "restored yield stresses", static_cast<Index>(layout.length.size()),
+           MoveRow{layout.length.span(), row, layout.slice.span(), from.span(), to.span()});
+  };
+  const Span<const Offset> rows = ordered_rows(fluid_layout_);
+  take(fluid_layout_, rows, spare_own_, own_), take(fluid_layout_, rows, spare_other_, other_);
+  take(wall_layout_, ordered_rows(wall_layout_), spare_wall_, wall_);
+}
+
 void ExactYield::remember(const Lists& lists, Index ids) {
   const Offset n = lists.fluid_id.size();
-  const bool fits = own_.size() == lists.fluid.capacity() && other_.size() == own_.size() &&
-                    wall_.size() == lists.wall.capacity() && held_.size() == n && relative_.size() == n;
-  if (!fits) throw Error("checkpoint: its yield stresses do not belong to this case");
   row_of_id_.resize(ids);
   launch(context_, "rows of ids", ids, Fill{row_of_id_.span()});
   launch(context_, "rows of ids", static_cast<Index>(n), RowOfId{lists.fluid_id.span(), row_of_id_.span()});

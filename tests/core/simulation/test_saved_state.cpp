@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 
+#include "backend/device.hpp"
 #include "backend/error.hpp"
 #include "core/simulation_setups.hpp"
 #include "simulation/simulation.hpp"
@@ -63,6 +64,26 @@ TEST(SavedState, IsTheSameAfterItWasRestored) {
       EXPECT_EQ(saved[k].bytes, again[k].bytes) << saved[k].name;
     }
   }
+}
+
+// Two threads put the rows of neighbour lists, and the yield stresses of pairs with them, wherever there is
+// room at the moment.
+TEST(SavedState, AndWhatFollowsAreTheSameWithTwoThreads) {
+  const int before = device_info().threads;
+  set_threads(1);
+  Simulation alone(exact());
+  const SavedState saved = saved_after(alone, 15), later = saved_after(alone, 10);
+  set_threads(2);
+  for (int again = 0; again < 20; ++again) {
+    Simulation shared(exact()), resumed(exact());
+    resumed.restore(saved);
+    const SavedState first = saved_after(shared, 15), second = saved_after(resumed, 10);
+    for (std::size_t k = 0; k < saved.size(); ++k) {
+      EXPECT_EQ(saved[k].bytes, first[k].bytes) << saved[k].name;
+      EXPECT_EQ(later[k].bytes, second[k].bytes) << later[k].name;
+    }
+  }
+  set_threads(before);
 }
 
 TEST(SavedState, HasNamesOfTheirOwnForAllArrays) {
