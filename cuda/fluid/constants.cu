@@ -114,6 +114,10 @@ void validate(const SimulationSetup& s) {
           "more than 2^31 - 1 fluid particles");
   require(p.velocity.size() == n && p.pressure.size() == n && p.fluid.size() == n,
           "particle arrays differ in length");
+  const FluidMemory& m = p.memory;
+  require(m.id.empty() || (m.id.size() == n && m.excess.size() == n && m.hollow.size() == n &&
+                           m.packing.size() == n && m.by_pressure.size() == n),
+          "arrays of what the fluid remembers differ in length");
   const auto& w = s.walls;
   require(w.position.size() < static_cast<std::size_t>(std::numeric_limits<Index>::max()),
           "more than 2^31 - 1 wall particles");

@@ -20,12 +20,23 @@ struct FluidSetup {
   double surface_tension = 0;  // [N/m]
 };
 
+// What fluid remembers that comes from the state of another simulation; see particles.hpp. One entry per
+// particle in each array, or none: then it rests on its lattice under its pressure.
+struct FluidMemory {
+  std::vector<Real> excess;       // [kg/m^3] density less that at rest
+  std::vector<Real> hollow;       // [kg/m^3]
+  std::vector<Real> packing;      // density at its first start over that at rest
+  std::vector<Vec3> by_pressure;  // [N/m^3]
+  std::vector<Index> id;          // ascending
+};
+
 // One entry per fluid particle in each array.
 struct FluidParticles {
   std::vector<Vec3d> position;      // [m]
   std::vector<Vec3d> velocity;      // [m/s]
   std::vector<double> pressure;     // [Pa], sets the initial density through the equation of state
   std::vector<std::uint8_t> fluid;  // index into SimulationSetup::fluids
+  FluidMemory memory{};             // its density goes before the pressure
 };
 
 // Wall ('dummy') particles behind the surface. One entry per wall particle in each array.
@@ -172,6 +183,8 @@ struct SimulationSetup {
   DomainSetup domain;
   NumericsSetup numerics;
   LimitSetup limits;
+  double start_time = 0;  // [s] of the clock by which walls move
+  double last_step = 0;   // [s] that the step before the start took: velocities are half of it behind
   // [s], 0: none. The steps before it are cut so that one ends there; going on beyond it is allowed.
   double end_time = 0;
   std::vector<FrontSetup> fronts;

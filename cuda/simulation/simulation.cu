@@ -30,6 +30,22 @@ CellGrid cover_domain(const SimulationSetup& s) {
   return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
 }
 
+// Of fluid that rests on its lattice.
+FluidMemory memory_at_rest(const SimulationSetup& s) {
+  const auto constants = fluid_constants(s);
+  const double c2 = s.numerics.sound_speed * s.numerics.sound_speed;
+  FluidMemory memory;
+  for (std::size_t i = 0; i < s.particles.position.size(); ++i) {
+    const FluidConstants& f = constants[s.particles.fluid[i]];
+    const auto excess = static_cast<Real>(s.particles.pressure[i] / c2);
+    memory.excess.push_back(excess), memory.hollow.push_back(0);
+    memory.packing.push_back(1 + excess / f.rest_density);
+    memory.by_pressure.push_back(-f.rest_density * to_real(s.gravity));
+    memory.id.push_back(static_cast<Index>(i));
+  }
+  return memory;
+}
+
 }  // namespace
 
 Simulation::State::State(const SimulationSetup& s)
@@ -63,6 +79,7 @@ Simulation::State::State(const SimulationSetup& s)
   if (setup.time_parts) step_graph.launch_singly();
   departed.resize(s.fluids.size());
   dt = full_dt = stable_time_step(setup);
+  time = setup.start_time, last_dt = setup.last_step;
   upload_fluid();
   upload_walls();
   planes.begin(context, fluid, diagnostics);
@@ -74,34 +91,29 @@ Simulation::State::State(const SimulationSetup& s)
 }
 
 void Simulation::State::upload_fluid() {
-  const auto& p = setup.particles;
+  auto& p = setup.particles;
   const std::size_t n = p.position.size();
+  const FluidMemory memory = p.memory.id.empty() ? memory_at_rest(setup) : std::move(p.memory);
   const auto constants = fluid_constants(setup);
-  const double c2 = setup.numerics.sound_speed * setup.numerics.sound_speed;
   std::vector<Vec3d> position(n);
   std::vector<Quad> place(n), motion(n), by_pressure(n), state(n);
-  std::vector<Index> id(n);
-  std::vector<Real> packing(n);
   std::vector<std::int64_t> count(setup.fluids.size());
   for (std::size_t i = 0; i < n; ++i) {
     const auto& f = constants[p.fluid[i]];
-    const auto excess = static_cast<Real>(p.pressure[i] / c2);
     position[i] = p.position[i] - setup.domain.lower;
-    packing[i] = 1 + excess / f.rest_density;
-    place[i] = quad(to_real(position[i]), f.volume(excess, packing[i]));
-    by_pressure[i] = quad(-f.rest_density * to_real(setup.gravity), 0);
+    place[i] = quad(to_real(position[i]), f.volume(memory.excess[i], memory.packing[i]));
+    by_pressure[i] = quad(memory.by_pressure[i], 0);
     state[i] = {static_cast<Real>(p.pressure[i]), viscosity(f.rheology, 0), place[i].w, f.mass};
-    motion[i] = quad(to_real(p.velocity[i]), excess);
-    id[i] = static_cast<Index>(i);
+    motion[i] = quad(to_real(p.velocity[i]), memory.excess[i]);
     ++count[p.fluid[i]];
   }
   for (std::size_t kind = 0; kind < count.size(); ++kind)
     start_mass += static_cast<double>(count[kind]) * particle_mass(setup, kind);
-  start_count = static_cast<Index>(n);
+  start_count = memory.id.empty() ? 0 : memory.id.back() + 1;
   fluids.upload(constants);
   fluid.resize(static_cast<Index>(n));
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),
-      fluid.packing.upload(packing), fluid.hollow.upload(std::vector<Real>(n)), fluid.id.upload(id);
+      fluid.packing.upload(memory.packing), fluid.hollow.upload(memory.hollow), fluid.id.upload(memory.id);
   fluid.fluid.upload(p.fluid);
   fluid.increment.upload(std::vector<Quad>(n)), fluid.last_increment.upload(std::vector<Quad>(n));
   fluid.by_pressure.upload(by_pressure);

@@ -30,6 +30,22 @@ struct FluidSnapshot {
   std::vector<std::int64_t> id;          // constant through the run
 };
 
+// The fluid of a state, with which another simulation can begin.
+struct FluidState {
+  FluidParticles particles;  // in order of ids, with what they remember; without pressures
+  double time = 0;           // [s]
+  double last_step = 0;      // [s] that the step before took
+};
+
+// What a saved state holds of that, as arrays for a file of its own; the lower corner of the domain it was
+// in [m].
+SavedState fluid_arrays(const SavedState&, Vec3d lower);
+// The same of a snapshot, which knows neither void nor the last step: the fluid then rests, as it were, under
+// its pressure.
+SavedState fluid_arrays(const FluidSnapshot&, const std::vector<FluidSetup>& fluids);
+// Throws Error when an array is missing or does not fit.
+FluidState fluid_state(const SavedState& fluid_arrays);
+
 // Calls v(name, unit, meaning, values) for each array besides the positions, by the name it has in files.
 template <class Visitor>
 void describe(Visitor& v, const FluidSnapshot& s) {

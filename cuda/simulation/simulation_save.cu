@@ -1,4 +1,5 @@
 // Saves and restores a simulation to the bit.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -53,7 +54,9 @@ class Saver {
 
 class Restorer {
  public:
-  explicit Restorer(const SavedState& state) : state_(state) { values(numbers_name, numbers_); }
+  explicit Restorer(const SavedState& state, const char* numbers = numbers_name) : state_(state) {
+    values(numbers, numbers_);
+  }
 
   template <class T>
   void array(const char* name, Buffer<T>& buffer) {
@@ -62,7 +65,7 @@ class Restorer {
     buffer.upload(host);
   }
   template <class T>
-  void values(const char* name, std::vector<T>& host) {
+  void values(const char* name, std::vector<T>& host) const {
     for (const SavedArray& saved : state_) {
       if (saved.name != name) continue;
       if (saved.element_size != sizeof(T) || saved.bytes.size() % sizeof(T) != 0)
@@ -166,7 +169,87 @@ void require_possible(const FluidArrays& fluid, const Buffer<Quad>& list_places,
   }
 }
 
+constexpr const char* clock_name = "clock";  // time and last step [s], lower corner of the domain [m]
+constexpr const char* fluid_names[] = {"position", "motion", "by_pressure", "hollow",
+                                       "packing",  "id",     "fluid"};
+
+// Checks what a simulation counts on, that ids ascend among it.
+void require_possible(const FluidState& f) {
+  const std::vector<Index>& id = f.particles.memory.id;
+  for (std::size_t k = 0; k < id.size(); ++k)
+    if (id[k] < 0 || (k > 0 && id[k] <= id[k - 1]))
+      throw Error("state: the numbers of its particles are not distinct");
+  if (!(f.time >= 0 && f.last_step >= 0)) Restorer::refuse_numbers();
+}
+
 }  // namespace
+
+SavedState fluid_arrays(const SavedState& saved, Vec3d lower) {
+  SavedState result;
+  for (const char* name : fluid_names)
+    for (const SavedArray& array : saved)
+      if (array.name == name) result.push_back(array);
+  Restorer restorer(saved);
+  double time = 0, dt = 0, full_dt = 0, last_dt = 0;
+  restorer.number(time), restorer.number(dt), restorer.number(full_dt), restorer.number(last_dt);
+  std::vector<double> clock{time, last_dt, lower.x, lower.y, lower.z};
+  Saver(result).values(clock_name, clock);
+  return result;
+}
+
+SavedState fluid_arrays(const FluidSnapshot& s, const std::vector<FluidSetup>& fluids) {
+  SavedState result;
+  Saver saver(result);
+  std::vector<Vec3d> position = s.position;
+  std::vector<Quad> motion, by_pressure(s.id.size());
+  std::vector<Real> hollow(s.id.size()), packing;
+  std::vector<Index> id(s.id.begin(), s.id.end());
+  std::vector<std::uint8_t> kind = s.fluid;
+  for (std::size_t k = 0; k < s.id.size(); ++k) {
+    const double rest = fluids.at(s.fluid[k]).rest_density, excess = static_cast<double>(s.density[k]) - rest;
+    motion.push_back(
+        quad(Vec3{s.velocity[k].x, s.velocity[k].y, s.velocity[k].z}, static_cast<Real>(excess)));
+    packing.push_back(static_cast<Real>(1 + larger(excess, 0.0) / rest));
+  }
+  saver.values("position", position), saver.values("motion", motion);
+  saver.values("by_pressure", by_pressure), saver.values("hollow", hollow);
+  saver.values("packing", packing), saver.values("id", id), saver.values("fluid", kind);
+  std::vector<double> clock{s.time, 0, 0, 0, 0};
+  saver.values(clock_name, clock);
+  return result;
+}
+
+FluidState fluid_state(const SavedState& arrays) {
+  const Restorer restorer(arrays, clock_name);
+  std::vector<Vec3d> position;
+  std::vector<Quad> motion, by_pressure;
+  std::vector<Real> hollow, packing;
+  std::vector<Index> id;
+  std::vector<std::uint8_t> kind;
+  std::vector<double> clock;
+  restorer.values("position", position), restorer.values("motion", motion);
+  restorer.values("by_pressure", by_pressure), restorer.values("hollow", hollow);
+  restorer.values("packing", packing), restorer.values("id", id), restorer.values("fluid", kind);
+  restorer.values(clock_name, clock);
+  const std::size_t n = id.size();
+  Restorer::require_fit(position.size() == n && motion.size() == n && by_pressure.size() == n &&
+                        hollow.size() == n && packing.size() == n && kind.size() == n && clock.size() == 5);
+  std::vector<std::size_t> order(n);
+  for (std::size_t i = 0; i < n; ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  FluidState result;
+  result.time = clock[0], result.last_step = clock[1];
+  const Vec3d lower{clock[2], clock[3], clock[4]};
+  FluidParticles& p = result.particles;
+  for (const std::size_t i : order) {
+    p.position.push_back(position[i] + lower), p.velocity.push_back(to_double(xyz(motion[i])));
+    p.fluid.push_back(kind[i]), p.memory.id.push_back(id[i]);
+    p.memory.excess.push_back(motion[i].w), p.memory.hollow.push_back(hollow[i]);
+    p.memory.packing.push_back(packing[i]), p.memory.by_pressure.push_back(xyz(by_pressure[i]));
+  }
+  require_possible(result);
+  return result;
+}
 
 SavedState Simulation::save() const {
   State& s = *state_;

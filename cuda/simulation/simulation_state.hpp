@@ -60,7 +60,7 @@ struct Simulation::State {
   std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
   PeakCompression largest_compression;
   double start_mass = 0;
-  Index start_count = 0;  // particles at the start: more than any id
+  Index start_count = 0;  // more than any id
   DepartureCounts departed;
   SolveReport report;
   SolverTotals solver;

@@ -99,7 +99,10 @@ FoundCheckpoint CheckpointStore::read_newest() const {
   }
   if (found.damaged.empty())
     throw InputError(folder_ + ": holds no " + checkpoint_name +
-                     " to resume from: allowed: the folder of a run");
+                     " to resume from: allowed: the folder of a run" +
+                     (exists(path_of("particles.vtkhdf"))
+                          ? "; slagflow run --from DIR@TIME -o NEW begins a new run with one of its snapshots"
+                          : ""));
   std::string reasons = folder_ + ": holds no checkpoint that can be used";
   for (const std::string& reason : found.damaged) reasons += "\n  " + reason;
   throw Error(reasons);

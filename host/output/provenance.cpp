@@ -21,10 +21,22 @@ std::string now_utc() {
 }
 
 std::vector<std::pair<std::string, std::string>> Provenance::attributes() const {
-  return {{"case", case_name},      {"case_text", case_text},     {"version", version},
-          {"commit", commit},       {"compiler", compiler},       {"build_type", build_type},
-          {"backend", backend},     {"device", device},           {"threads", std::to_string(threads)},
-          {"precision", precision}, {"started_utc", started_utc}, {"ended_utc", ended_utc}};
+  std::vector<std::pair<std::string, std::string>> all{
+      {"case", case_name},      {"case_text", case_text},     {"version", version},
+      {"commit", commit},       {"compiler", compiler},       {"build_type", build_type},
+      {"backend", backend},     {"device", device},           {"threads", std::to_string(threads)},
+      {"precision", precision}, {"started_utc", started_utc}, {"ended_utc", ended_utc},
+      {"changes", changes}};
+  all.insert(all.end(), origin.begin(), origin.end());
+  return all;
+}
+
+std::vector<std::pair<std::string, std::string>> origin_among(
+    const std::vector<std::pair<std::string, std::string>>& texts) {
+  std::vector<std::pair<std::string, std::string>> origin;
+  for (const auto& text : texts)
+    if (text.first.rfind("from_", 0) == 0) origin.push_back(text);
+  return origin;
 }
 
 void Provenance::begin_with(const std::vector<std::pair<std::string, std::string>>& attributes_of_start) {
@@ -34,8 +46,10 @@ void Provenance::begin_with(const std::vector<std::pair<std::string, std::string
                                                      {"compiler", &compiler},
                                                      {"build_type", &build_type},
                                                      {"device", &device}};
+  origin = origin_among(attributes_of_start);
   for (const auto& [name, first] : attributes_of_start) {
     if (name == "started_utc") started_utc = first;
+    if (name == "changes" && !first.empty()) changes = first + (changes.empty() ? "" : "\n") + changes;
     const auto found = changing.find(name);
     if (found == changing.end()) continue;
     std::string& here = *found->second;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <sstream>
 
 namespace slagflow {
 namespace {
@@ -49,6 +50,26 @@ Json departed_of(const Totals& totals) {
   return departed;
 }
 
+Json lines_of(const std::string& text) {
+  Json::Array lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.emplace_back(line);
+  return Json(std::move(lines));
+}
+
+// Where the run began, if in the state of another one.
+Json origin_of(const Provenance& provenance) {
+  Json origin = Json::object();
+  for (const auto& [name, value] : provenance.origin) {
+    const std::string key = name.substr(name.find('_') + 1);
+    if (key == "time" || key == "step")
+      origin.set(key, std::stod(value));
+    else
+      origin.set(key, key == "changes" ? lines_of(value) : Json(value));
+  }
+  return origin;
+}
+
 void add_cost(Json& summary, const Simulation& simulation, const RunCounts& counts) {
   const double wall = std::max(counts.wall_time, 1e-9);
   summary.set("wall_time", counts.wall_time).set("setup_time", counts.setup_time);
@@ -75,6 +96,8 @@ Json summary_of_case(const Case& resolved, const Provenance& provenance, const R
   summary.set("build_type", provenance.build_type).set("backend", provenance.backend);
   summary.set("device", provenance.device).set("threads", provenance.threads);
   summary.set("precision", provenance.precision).set("started_utc", provenance.started_utc);
+  if (!provenance.origin.empty()) summary.set("from", origin_of(provenance));
+  if (!provenance.changes.empty()) summary.set("changes", lines_of(provenance.changes));
   summary.set("particles", Json::object().set("fluid", counts.particles_start).set("wall", counts.walls));
   summary.set("spacing", resolved.spacing).set("support_radius", resolved.support_ratio * resolved.spacing);
   summary.set("dimensions", resolved.dimensions).set("sound_speed", resolved.numerics.sound_speed);
@@ -89,8 +112,7 @@ std::string compression_line(const PeakCompression& largest) {
   return text.data();
 }
 
-void add_results(Json& summary, Simulation& simulation, const RunCounts& counts) {
-  const Totals totals = simulation.totals();
+void add_results(Json& summary, const Simulation& simulation, const Totals& totals, const RunCounts& counts) {
   summary.set("steps", simulation.steps()).set("simulated_time", simulation.time());
   summary.set("time_step", simulation.time_step());
   const Json solver = summary.at("viscous").at("solver");

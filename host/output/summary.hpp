@@ -26,7 +26,7 @@ Json summary_of_case(const Case& resolved, const Provenance& provenance, const R
 // "largest compression 1.2 % at 0.31 s".
 std::string compression_line(const PeakCompression& largest);
 
-// Adds what the simulation and its run led to.
-void add_results(Json& summary, Simulation& simulation, const RunCounts& counts);
+// Adds what the simulation, its totals of now and its run led to.
+void add_results(Json& summary, const Simulation& simulation, const Totals& totals, const RunCounts& counts);
 
 }  // namespace slagflow

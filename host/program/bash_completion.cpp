@@ -104,6 +104,10 @@ _slagflow() {
       COMPREPLY=($(compgen -f -- "$cur"))
       return
       ;;
+    --from)
+      COMPREPLY=($(compgen -d -- "$cur"))
+      return
+      ;;
   esac
   case $command,$cur in
     *,-*) _slagflow_options "$command" ;;

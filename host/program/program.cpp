@@ -31,6 +31,7 @@ struct Arguments {
   std::string file;
   std::string topic;
   HelpForm help = HelpForm::text;
+  std::string from;
   std::vector<std::string> overrides;
   RunOptions run;
   RheometryOptions rheometry;
@@ -70,10 +71,17 @@ const CLI::Validator not_empty(
     "");
 
 int run(const Arguments& arguments) {
+  if (!arguments.from.empty())
+    return report(run_from({arguments.from, arguments.file, arguments.overrides}, arguments.run));
+  if (arguments.file.empty())
+    throw InputError("run: neither a case nor --from: allowed: CASE.toml, --from DIR[@TIME], or both");
   return report(run_case(load_case(arguments.file, arguments.overrides), arguments.run));
 }
 
-int resume(const Arguments& arguments) { return report(resume_run(arguments.run)); }
+int resume(Arguments arguments) {
+  arguments.run.changes = std::move(arguments.overrides);
+  return report(resume_run(arguments.run));
+}
 
 int check(const Arguments& arguments) {
   const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
@@ -126,12 +134,15 @@ int help(const Arguments& arguments, const CLI::App& app) {
   return 0;
 }
 
-void add_case(CLI::App* command, Arguments& arguments) {
-  command->add_option("case", arguments.file, "case file")->required()->type_name("CASE.toml");
-  command->add_option("--set", arguments.overrides, "set a key of the case, as fluid.slag.yield_stress=5")
-      ->allow_extra_args(false)
-      ->type_name("KEY=VALUE");
+CLI::Option* add_case(CLI::App* command, Arguments& arguments) {
+  return command->add_option("case", arguments.file, "case file")->type_name("CASE.toml");
 }
+
+void add_set(CLI::App* command, Arguments& arguments, const char* what) {
+  command->add_option("--set", arguments.overrides, what)->allow_extra_args(false)->type_name("KEY=VALUE");
+}
+
+constexpr const char* set_a_key = "set a key of the case, as fluid.slag.yield_stress=5";
 
 // Those of `run` and `resume`.
 void add_loop_options(CLI::App* command, RunOptions& run) {
@@ -199,22 +210,40 @@ CLI::App* add_help(CLI::App& app, Arguments& arguments) {
   return command;
 }
 
+CLI::App* add_run(CLI::App& app, Arguments& arguments) {
+  CLI::App* const command = app.add_subcommand("run", "run a case");
+  add_case(command, arguments);
+  add_set(command, arguments, set_a_key);
+  command
+      ->add_option(
+          "--from", arguments.from,
+          "start in the state of another run: its newest checkpoint, or what is nearest to TIME [s]; "
+          "with its case unless one is given")
+      ->check(not_empty)
+      ->type_name("DIR[@TIME]");
+  add_run_options(command, arguments.run);
+  add_loop_options(command, arguments.run);
+  return command;
+}
+
+CLI::App* add_resume(CLI::App& app, Arguments& arguments) {
+  CLI::App* const command = app.add_subcommand("resume", "go on with a run from its checkpoint");
+  command->add_option("folder", arguments.run.folder, "folder of the run")->required()->type_name("DIR");
+  add_set(command, arguments, "change a key that may change in a run, as output.end_time=2");
+  add_loop_options(command, arguments.run);
+  return command;
+}
+
 int dispatch(int argc, const char* const* argv) {
   CLI::App app("Smoothed-particle hydrodynamics of slag with a yield stress and a free surface.", "slagflow");
   Arguments arguments;
   app.require_subcommand(1);
   app.set_version_flag("--version", version_text, "version, commit, build and device");
-  CLI::App* const run_command = app.add_subcommand("run", "run a case");
-  add_case(run_command, arguments);
-  add_run_options(run_command, arguments.run);
-  add_loop_options(run_command, arguments.run);
-  CLI::App* const resume_command = app.add_subcommand("resume", "go on with a run from its checkpoint");
-  resume_command->add_option("folder", arguments.run.folder, "folder of the run")
-      ->required()
-      ->type_name("DIR");
-  add_loop_options(resume_command, arguments.run);
+  CLI::App* const run_command = add_run(app, arguments);
+  CLI::App* const resume_command = add_resume(app, arguments);
   CLI::App* const check_command = app.add_subcommand("check", "validate a case and estimate its cost");
-  add_case(check_command, arguments);
+  add_case(check_command, arguments)->required();
+  add_set(check_command, arguments, set_a_key);
   CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
   CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);

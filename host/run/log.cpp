@@ -24,6 +24,8 @@ void Log::info(const std::string& message) {
   keep(message);
 }
 
+void Log::note(const std::string& message) { keep(message); }
+
 void Log::warning(const std::string& message) {
   show("warning: " + message);
   keep("warning: " + message);

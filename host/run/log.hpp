@@ -24,6 +24,8 @@ class Log {
   void warning(const std::string& message);  // "warning: ..."
   void error(const std::string& message);    // "error: ..."
 
+  void note(const std::string& message);  // for the file alone: what stdout has at the end
+
   // A line that the next one replaces; for terminals, never in the file.
   void status(const std::string& line);
   bool quiet() const { return verbosity_ == Verbosity::quiet; }

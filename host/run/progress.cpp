@@ -35,7 +35,8 @@ std::string cut_to_terminal(std::string line) {
 }  // namespace
 
 std::string progress_line(const ProgressState& state, double wall_time) {
-  const double done = state.end_time > 0 ? state.time / state.end_time : 1;
+  const double whole = state.end_time - state.start_time;
+  const double done = whole > 0 ? (state.time - state.start_time) / whole : 1;
   const double wall = wall_time > 0 ? wall_time : 1e-9;
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(),

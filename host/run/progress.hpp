@@ -14,6 +14,7 @@ struct ProgressState {
   std::int64_t steps = 0;
   std::int64_t particle_steps = 0;
   double iterations_mean = 0;  // of the viscous solver
+  double start_time = 0;       // [s]
 };
 
 // "37.5 %  t 0.0375 s  step 402  51.2 steps/s  ..."; wall_time in seconds, rates over all of it.

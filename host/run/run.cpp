@@ -1,72 +1,21 @@
 #include "host/run/run.hpp"
 
-#include <array>
 #include <filesystem>
-#include <thread>
 #include <utility>
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
-#include "host/case/case_rules.hpp"
-#include "host/geometry/geometry.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/check.hpp"
 #include "host/run/run_folder.hpp"
 #include "host/run/run_interrupt.hpp"
 #include "host/run/run_loop.hpp"
+#include "host/run/run_options.hpp"
+#include "host/run/start_state.hpp"
 
 namespace slagflow {
 namespace {
-
-// Throws InputError when the checkpoint's numbers cannot be continued to the same bits by this program.
-void require_same_build(const FoundCheckpoint& found) {
-  const Provenance here = build_provenance();
-  const std::array<std::pair<const char*, std::string>, 2> needed{
-      {{"backend", here.backend}, {"precision", here.precision}}};
-  for (const auto& [name, value] : needed) {
-    const std::string& written = found.checkpoint.text(name);
-    if (written != value)
-      throw InputError(found.path + ": was written by a build with " + name + " \"" + written +
-                       "\", this program has \"" + value + "\": resume with a program like the first");
-  }
-}
-
-void warn_of_other_version(const FoundCheckpoint& found, Log& log) {
-  const Provenance here = build_provenance();
-  const std::string &version = found.checkpoint.text("version"), &commit = found.checkpoint.text("commit");
-  if (version != here.version || commit != here.commit)
-    log.warning(found.path + ": was written by version " + version + " (" + commit + "), this is " +
-                here.version + " (" + here.commit + "): the results may differ in their last digits");
-}
-
-// Throws InputError when the device is to repeat iterations and cannot.
-void require_loops(const Case& c) {
-  const std::string key = "numerics.solver_loop", missing = missing_for_loops();
-  if (c.numerics.solver_loop == SolverLoop::conditional && !missing.empty())
-    throw InputError(c.place_of(key) + ": key '" + key + "': value \"conditional\" needs " + missing +
-                     ": allowed: \"batch\"");
-}
-
-// The end time of the case stays: the time steps before it are part of the flow.
-void end_at(double until, Case& c) {
-  if (until > longest_run(c.output))
-    throw InputError("--until " + show(until) + ": allowed: up to " + show(longest_run(c.output)) +
-                     " s with this output.interval and output.history_interval");
-  c.output.until = until == c.output.end_time ? 0 : until;
-}
-
-std::string already_there(const RunRecord& run, const Case& c) {
-  return "the run has reached its end of " + std::to_string(c.output.last_time()) + " s already, at " +
-         std::to_string(run.time) + " s; --until SECONDS takes it further";
-}
-
-void warn_of_threads(int threads, Log& log) {
-  const auto cores = static_cast<int>(std::thread::hardware_concurrency());
-  if (cores > 0 && threads > cores)
-    log.warning("--threads " + std::to_string(threads) + ": this machine has " + std::to_string(cores) +
-                " for this program; the others wait for those");
-}
 
 RunOutcome interrupted_before(const std::string& folder) {
   RunOutcome outcome;
@@ -75,14 +24,32 @@ RunOutcome interrupted_before(const std::string& folder) {
   return outcome;
 }
 
-}  // namespace
-
-int RunOutcome::exit_code() const {
-  if (status == RunStatus::failed) return 1;
-  return status == RunStatus::interrupted ? 130 : 0;
+// Gives the case what goes on from the state, and notes in its texts which keys differ.
+void take_state(StartState& start, BuiltCase& built) {
+  start_from(start, built);
+  const std::vector<KeyChange> changes = key_changes(start.before, built.resolved);
+  require_startable(start, built, changes);
+  std::string lines;
+  for (const KeyChange& change : changes) lines += (lines.empty() ? "" : "\n") + text_of(change);
+  start.checkpoint.texts.emplace_back("from_changes", lines);
 }
 
-RunOutcome run_case(const Case& c, const RunOptions& options) {
+void tell_of_state(const StartState& start, Log& log) {
+  log.info("starts from " + start.text());
+  const std::string& changes = start.checkpoint.text("from_changes");
+  log.info(changes.empty() ? "no key differs" : "keys that differ:\n" + changes);
+  for (const std::string& warning : start.warnings) log.warning(warning);
+}
+
+void write_start(const StartState& start, const std::string& folder) {
+  const std::string path = folder + "/" + start_name;
+  const std::vector<std::byte> bytes = checkpoint_bytes(start.checkpoint, path);
+  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  flush_to_disk(path);
+}
+
+// `start`: where it does not begin with the regions of the case.
+RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
   InterruptGuard signals;
   require_loops(c);
   Case limited = c;
@@ -92,6 +59,7 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   require_free_folder(folder, options.overwrite);
   require_not_the_case(folder, c.file);
   BuiltCase built = build_setup(limited);
+  if (start) take_state(*start, built);
   built.setup.time_parts = options.time_parts;
   const double on_device = device_info().memory;
   require_memory(built, on_device > 0 ? on_device : available_memory());
@@ -105,41 +73,34 @@ RunOutcome run_case(const Case& c, const RunOptions& options) {
   log.open(folder + "/log.txt");
   warn_of_threads(options.threads, log);
   for (const std::string& warning : check_case(built).warnings) log.warning(warning);
-  return Run(std::move(built), folder, log, signals).execute();
+  if (start) write_start(*start, folder), tell_of_state(*start, log);
+  Run run(std::move(built), folder, log, signals);
+  if (start) run.begin_from(start->checkpoint);
+  return with_advice(run.execute(), options);
 }
 
-RunOutcome resume_run(const RunOptions& options) {
-  InterruptGuard signals;
-  const std::string& folder = options.folder;
-  std::error_code failed;
-  if (!std::filesystem::is_directory(folder, failed))
-    throw InputError(folder + ": is no folder: allowed: the folder of a run");
-  const FolderLock lock(folder);
-  if (options.threads > 0) set_threads(options.threads);
-  const CheckpointStore store(folder);
-  FoundCheckpoint found = store.read_newest();
-  require_same_build(found);
-  Case c = parse_case(found.checkpoint.text("case_text"), found.path);
-  require_loops(c);
-  if (options.until) end_at(*options.until, c);
+}  // namespace
 
-  Log log(options.verbosity);
-  log.open(folder + "/log.txt", std::ios::app);
-  warn_of_threads(options.threads, log);
-  BuiltCase built = build_setup(c);
-  built.setup.time_parts = options.time_parts;
-  Run run(std::move(built), folder, log, signals);
-  for (const std::string& reason : found.damaged) log.warning(reason + "; the previous one is used");
-  warn_of_other_version(found, log);
-  const RunRecord at = found.checkpoint.run;
-  run.go_on_from(std::move(found.checkpoint));
-  if (!found.damaged.empty()) store.set_damaged_aside();
-  log.info("resumed from " + found.path + " at " + std::to_string(at.time) + " s, step " +
-           std::to_string(at.steps));
-  RunOutcome outcome = run.execute();
-  if (outcome.status == RunStatus::done && at.time >= c.output.last_time())
-    outcome.results.insert(outcome.results.begin(), already_there(at, c));
-  return outcome;
+int RunOutcome::exit_code() const {
+  if (status == RunStatus::failed) return 1;
+  return status == RunStatus::interrupted ? 130 : 0;
+}
+
+RunOutcome run_case(const Case& c, const RunOptions& options) { return begin(c, options, nullptr); }
+
+RunOutcome run_from(const StartRequest& request, const RunOptions& options) {
+  StartState start = find_state(request.from);
+  Case c = request.file.empty()
+               ? parse_case(start.checkpoint.text("case_text"),
+                            start.checkpoint.text("from_folder") + "/" + start.checkpoint.text("from_file"),
+                            request.overrides)
+               : load_case(request.file, request.overrides);
+  end_with_end_time(request.overrides, c);
+  std::error_code failed;
+  const std::string folder = run_folder(c, options);
+  if (std::filesystem::equivalent(folder, start.checkpoint.text("from_folder"), failed))
+    throw InputError(folder + ": is the run to start from, which stays as it is; -o takes another folder");
+  return begin(c, options, &start);
 }
 
 }  // namespace slagflow

@@ -14,6 +14,7 @@
 
 #include "backend/error.hpp"
 #include "host/output/checkpoint_store.hpp"
+#include "host/run/start_state.hpp"
 
 namespace slagflow {
 namespace {
@@ -23,10 +24,9 @@ namespace fs = std::filesystem;
 constexpr const char* unfinished_suffix = ".tmp";
 
 // Checkpoints first: once the files that they count on begin to go, nothing must be left to resume from.
-constexpr std::array<const char*, 9> run_files{
-    checkpoint_name, previous_checkpoint_name, damaged_checkpoint_name,
-    "case.toml",     "particles.vtkhdf",       "walls.vtkhdf",
-    "history.csv",   "summary.json",           "log.txt"};
+constexpr std::array<const char*, 10> run_files{
+    checkpoint_name,    previous_checkpoint_name, damaged_checkpoint_name, start_name,     "case.toml",
+    "particles.vtkhdf", "walls.vtkhdf",           "history.csv",           "summary.json", "log.txt"};
 
 }  // namespace
 

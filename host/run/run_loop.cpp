@@ -16,6 +16,8 @@
 namespace slagflow {
 namespace {
 
+constexpr double rounding = 1e-12;  // of times, relative
+
 template <class T>
 std::uint64_t checksum_of(const std::vector<T>& values, std::uint64_t so_far) {
   return checksum(values.data(), values.size() * sizeof(T), so_far);
@@ -38,10 +40,18 @@ double seconds_between(std::chrono::steady_clock::time_point from, std::chrono::
 }  // namespace
 
 bool Schedule::due(double time) {
-  constexpr double rounding = 1e-12;
   if (time < next_ * (1 - rounding)) return false;
-  next_ = (std::floor(time / interval_ * (1 + rounding)) + 1) * interval_;
+  next_ = following(time);
   return true;
+}
+
+double Schedule::following(double time) const {
+  return (std::floor(time / interval_ * (1 + rounding)) + 1) * interval_;
+}
+
+void Schedule::restore(double next, double time) {
+  const double own = following(time);
+  next_ = std::abs(own - next) <= rounding * next ? next : own;
 }
 
 Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
@@ -54,6 +64,7 @@ Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
       geometry_(checksum_of(built_.setup)),
       snapshot_due_(built_.resolved.output.interval),
       history_due_(built_.resolved.output.history_interval),
+      start_time_(built_.setup.start_time),
       measures_(built_.resolved, built_.setup),
       losses_(built_.resolved) {
   counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
@@ -62,7 +73,19 @@ Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
   outcome_.folder = folder_;
 }
 
-void Run::go_on_from(Checkpoint checkpoint) {
+void Run::begin_from(const Checkpoint& state) {
+  provenance_.origin = origin_among(state.texts);
+  note_origin();
+}
+
+void Run::note_origin() {
+  if (provenance_.origin.empty()) return;
+  provenance_.case_text =
+      "# Began in a state of another run, start.h5: run by itself it begins with its regions.\n" +
+      provenance_.case_text;
+}
+
+void Run::go_on_from(Checkpoint checkpoint, const std::string& changes) {
   const RunRecord& run = checkpoint.run;
   if (run.geometry != geometry_)
     throw Error(folder_ +
@@ -70,15 +93,17 @@ void Run::go_on_from(Checkpoint checkpoint) {
   measures_.restore(run.measures);
   losses_.restore(run.most_in_walls, run.deepest_in_wall);
   thin_sheets_.restore(run.most_in_sheets, run.time_of_most_in_sheets);
-  snapshot_due_.restore(run.next_snapshot);
-  history_due_.restore(run.next_history);
+  snapshot_due_.restore(run.next_snapshot, run.time);
+  history_due_.restore(run.next_history, run.time);
   recorded_step_ = run.recorded_step;
   snapshot_step_ = run.snapshot_step;
   particles_now_ = run.particles_now;
   counts_.particle_steps = run.particle_steps;
   wall_before_ = run.wall_time;
   resumes_ = run.resumes + 1;
+  provenance_.changes = changes;
   provenance_.begin_with(checkpoint.texts);
+  note_origin();
   saved_time_ = run.time;
   resumed_ = std::move(checkpoint);
 }
@@ -98,7 +123,7 @@ RunOutcome Run::execute() {
   counts_.wall_time = wall_before_ + seconds_between(started_, Clock::now());
   write_summary();
   if (simulation_) log_.info("end: " + progress_line(progress(), counts_.wall_time));
-  outcome_.results = measures_.lines();
+  tell(measures_.lines());
   tell_compression();
   tell_losses();
   return std::move(outcome_);
@@ -163,16 +188,27 @@ RunStatus Run::loop() {
 }
 
 RunStatus Run::end_early(const std::string& reason) {
-  ended_early_ = reason;
-  log_.info(ended_early_ + ": ends at " + std::to_string(simulation_->time()) + " s");
+  ended_early_ = reason + ", at " + std::to_string(simulation_->time()) + " s";
   return RunStatus::done;
+}
+
+// Of now: they are taken once, however many ask.
+const Totals& Run::totals() {
+  if (!totals_ || totals_step_ != simulation_->steps()) totals_ = simulation_->totals();
+  totals_step_ = simulation_->steps();
+  return *totals_;
+}
+
+// At the end: on stdout, where the caller puts them, and in the log.
+void Run::tell(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) log_.note(line), outcome_.results.push_back(line);
 }
 
 // A line of the history; the measures are taken from the same totals.
 void Run::record() {
   if (recorded_step_ == simulation_->steps()) return;
   recorded_step_ = simulation_->steps();
-  const Totals totals = simulation_->totals();
+  const Totals& totals = this->totals();
   particles_now_ = totals.particles;
   losses_.look(*simulation_);
   thin_sheets_.look(totals, simulation_->time());
@@ -256,7 +292,7 @@ void Run::end_outputs() {
   record();
   take_snapshot();
   losses_.look_at_all(*simulation_);
-  thin_sheets_.look(simulation_->totals(), simulation_->time());  // also where the last line was there before
+  thin_sheets_.look(totals(), simulation_->time());  // also where the last line was there before
   snapshots_->close();
   provenance_.ended_utc = now_utc();
   snapshots_->describe(provenance_.attributes());
@@ -267,8 +303,7 @@ void Run::tell_compression() {
   constexpr double much = 0.1;
   const PeakCompression largest = simulation_->largest_compression();
   const std::string line = compression_line(largest);
-  log_.info(line);
-  outcome_.results.push_back(line);
+  tell({line});
   if (largest.value <= much) return;
   const double sound_speed = built_.resolved.numerics.sound_speed;
   std::array<char, 40> now{};
@@ -279,17 +314,14 @@ void Run::tell_compression() {
 }
 
 void Run::tell_losses() {
-  if (!ended_early_.empty()) outcome_.results.push_back("ended early: " + ended_early_);
+  if (!ended_early_.empty()) tell({"ended early: " + ended_early_});
   if (!simulation_) return;
   try {
-    const Totals totals = simulation_->totals();
     const std::int64_t start = counts_.particles_start;
-    const auto tell = [&](const std::vector<std::string>& lines, const std::vector<std::string>& warnings) {
-      for (const std::string& line : lines) log_.info(line), outcome_.results.push_back(line);
-      for (const std::string& warning : warnings) log_.warning(warning);
-    };
-    tell(losses_.lines(totals, start), losses_.warnings(totals, start));
-    tell(thin_sheets_.lines(built_.resolved, start), thin_sheets_.warnings(built_.resolved, start));
+    tell(losses_.lines(totals(), start));
+    for (const std::string& warning : losses_.warnings(totals(), start)) log_.warning(warning);
+    tell(thin_sheets_.lines(built_.resolved, start));
+    for (const std::string& warning : thin_sheets_.warnings(built_.resolved, start)) log_.warning(warning);
   } catch (const std::exception& error) {
     log_.warning(std::string("the losses are not known: ") + error.what());
   }
@@ -298,6 +330,7 @@ void Run::tell_losses() {
 void Run::fail(const std::string& reason) {
   outcome_.status = RunStatus::failed;
   outcome_.reason = reason;
+  totals_.reset();  // the step that failed may have moved particles
   log_.error(reason);
   if (snapshots_) save_last_state();
   if (saved_time_)
@@ -317,8 +350,8 @@ void Run::save_last_state() {
 void Run::write_summary() {
   Json summary = summary_of_case(built_.resolved, provenance_, counts_);
   try {
-    if (simulation_) add_results(summary, *simulation_, counts_);
-    if (simulation_) losses_.add_to(summary, simulation_->totals());
+    if (simulation_) add_results(summary, *simulation_, totals(), counts_);
+    if (simulation_) losses_.add_to(summary, totals());
     thin_sheets_.add_to(summary);
   } catch (const std::exception& error) {
     log_.warning(std::string("the summary lacks the results: ") + error.what());
@@ -341,8 +374,12 @@ ProgressState Run::progress() const {
   const SolverTotals solver = simulation_->solver_totals();
   const double mean =
       solver.steps > 0 ? static_cast<double>(solver.iterations) / static_cast<double>(solver.steps) : 0;
-  return {simulation_->time(), built_.resolved.output.last_time(), simulation_->steps(),
-          counts_.particle_steps, mean};
+  return {simulation_->time(),
+          built_.resolved.output.last_time(),
+          simulation_->steps(),
+          counts_.particle_steps,
+          mean,
+          start_time_};
 }
 
 }  // namespace slagflow

@@ -29,9 +29,13 @@ class Schedule {
 
   bool due(double time);
   double next() const { return next_; }
-  void restore(double next) { next_ = next; }
+  // Goes on at a time [s] at which nothing is due: with what was next, or where the interval has changed
+  // meanwhile, with the next of its multiples.
+  void restore(double next, double time);
 
  private:
+  double following(double time) const;
+
   double interval_, next_ = 0;
 };
 
@@ -41,13 +45,16 @@ class Run {
   Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals);
 
   // Goes on from a checkpoint of the same case instead of starting. Throws Error when the particles that
-  // the case starts from are others than they were.
-  void go_on_from(Checkpoint checkpoint);
+  // the case starts from are others than they were. `changes`: of keys since then, a line each.
+  void go_on_from(Checkpoint checkpoint, const std::string& changes);
+  // Starts in the state of another run, which the built case has already; see Provenance::origin.
+  void begin_from(const Checkpoint& state);
 
   // Runs to the end; failures are outcomes.
   RunOutcome execute();
 
  private:
+  void note_origin();
   void start();
   void open_outputs();
   RunStatus loop();
@@ -64,6 +71,8 @@ class Run {
   void save_last_state();
   void fail(const std::string& reason);
   void write_summary();
+  const Totals& totals();
+  void tell(const std::vector<std::string>& lines);
   ProgressState progress() const;
 
   using Clock = std::chrono::steady_clock;
@@ -82,7 +91,10 @@ class Run {
   RunOutcome outcome_;
   Schedule snapshot_due_, history_due_;
   std::int64_t recorded_step_ = -1, snapshot_step_ = -1, particles_now_ = 0;
+  double start_time_;       // [s]
   FluidSnapshot measured_;  // buffer of the measures
+  std::optional<Totals> totals_;
+  std::int64_t totals_step_ = -1;  // of those
   Measures measures_;
   Losses losses_;
   ThinSheets thin_sheets_;

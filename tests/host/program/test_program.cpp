@@ -66,6 +66,23 @@ TEST_F(Program, BadArgumentsGiveTwo) {
   EXPECT_THAT(result.err, HasSubstr("--fast"));
 }
 
+TEST_F(Program, RunNeedsACaseOrAState) {
+  EXPECT_THAT(call({"run"}).err, HasSubstr("neither a case nor --from"));
+  EXPECT_EQ(call({"run", "--from", folder_ / "none"}).code, 2);
+  EXPECT_EQ(call({"run", "--from", ""}).code, 2);
+  for (const char* form : {"--man", "--completion"}) {
+    const std::string text = call({"help", form}).out;
+    EXPECT_THAT(text, HasSubstr(form[2] == 'm' ? "\\-\\-from" : "--from"));
+  }
+}
+
+TEST_F(Program, ResumeTakesKeysThatMayChange) {
+  EXPECT_EQ(call({"run", case_file(), "-o", folder_ / "run", "--quiet"}).code, 0);
+  EXPECT_EQ(call({"resume", folder_ / "run", "--quiet", "--set", "output.end_time=0.006"}).code, 0);
+  EXPECT_THAT(read_text_file(folder_ / "run/case.toml"), HasSubstr("end_time = 0.006"));
+  EXPECT_EQ(call({"resume", folder_ / "run", "--quiet", "--set", "fluid.oil.density=900"}).code, 2);
+}
+
 TEST_F(Program, MissingCaseFileGivesTwo) {
   const Result result = call({"run", folder_ / "none.toml"});
   EXPECT_EQ(result.code, 2);

@@ -270,6 +270,24 @@ TEST(Run, InterruptEndsItWithItsFilesClosed) {
   EXPECT_EQ(outcome.exit_code(), 130);
   EXPECT_THAT(read_text_file(folder / "run/summary.json"), HasSubstr("\"status\": \"interrupted\""));
   EXPECT_THAT(describe_file(folder / "run/particles.vtkhdf"), HasSubstr("time steps: "));
+  ASSERT_FALSE(outcome.results.empty());
+  EXPECT_EQ(outcome.results.back().find("to go on: slagflow resume " + (folder / "run")), 0U);
+}
+
+// On stdout, from the results, and in the log.
+TEST(Run, TellsItsEndOnce) {
+  const TempFolder folder;
+  RunOptions options = into(folder);
+  options.verbosity = Verbosity::normal;
+  testing::internal::CaptureStderr();
+  const RunOutcome outcome = run_text(tiny_case(), options);
+  const std::string shown = testing::internal::GetCapturedStderr(),
+                    log = read_text_file(folder / "run/log.txt");
+  EXPECT_GT(outcome.results.size(), 5U);
+  for (const std::string& line : outcome.results) {
+    EXPECT_THAT(log, HasSubstr(line));
+    EXPECT_THAT(shown, testing::Not(HasSubstr(line)));
+  }
 }
 
 // The setup looks at some millions of lattice sites, the signal comes as soon as it is waited for. A shell
