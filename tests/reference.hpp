@@ -182,18 +182,36 @@ inline double gradient_on_lattice(const World& w) {
 // and density diffusion (numerics.md, section 0), with the pairs where they were half-way. Walls take part
 // with the density that their pressure has in the fluid's equation of state. Between fluids, what diffuses is
 // the excess over each one's rest density: otherwise their interface would.
+// How far the densities around particle i are below rest together: 1 when all are, 0 when as many are above.
+inline double held_together(const World& w, std::size_t i, double dt) {
+  const Particle& p = w.particles[i];
+  if (p.excess >= 0) return 0;
+  double sum = 0, sizes = 0;
+  for_fluid_pairs(
+      w, i,
+      [&](const Particle& j, Vec d) {
+        const Vec half_way = d - 0.5 * dt * (p.v - j.v);
+        if (length(half_way) >= w.support) return;
+        const double weight = -j.volume * slope_over_distance(w, length(half_way));
+        sum += weight * j.excess, sizes += weight * std::fabs(j.excess);
+      },
+      reach_before);
+  return sizes > 0 ? std::max(0.0, -sum / sizes) : 0;
+}
+
 inline Sum density_change(const World& w, std::size_t i, double dt) {
   const Particle& p = w.particles[i];
   const double c2 = w.sound_speed * w.sound_speed, rest = w.kind(p).rest_density;
   const double strength = 2 * w.diffusion * (w.support / 2) * w.sound_speed;
   const double density = w.density(p);
+  const double in_tension = p.excess < 0 ? tension_share(w, p) * held_together(w, i, dt) : 0;
   Sum sum;
   // `moved`: what the step has added to d; `balanced`: minus the force per volume by pressure
   auto pair = [&](Vec d, double volume, Vec moved, double excess, Vec balanced, double share, double eta) {
     const Vec half_way = d - 0.5 * moved;
     if (length(half_way) >= w.support) return;
     const double f = slope_over_distance(w, length(half_way));
-    const double mixed = mixed_slope(w, p.excess < 0 ? tension_share(w, p) : 0, length(half_way));
+    const double mixed = mixed_slope(w, in_tension, length(half_way));
     sum.add(density * volume * mixed * dot(moved, half_way),
             density * volume * -f * length(moved) * length(d));
     const double smooth = dot(balanced, -1 * half_way) / c2 * share;

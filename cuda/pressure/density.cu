@@ -12,6 +12,8 @@ namespace {
 struct PairSums {
   Lanes approach = 0;  // of the fluid, relative change of the density [1/s]
   Lanes squeeze = 0;   // by the walls, relative change in the last step
+  // What the function for tension makes of both beyond that, and the densities around, with and without sign.
+  Lanes apart = 0, torn = 0, around = 0, sizes = 0;
   Lanes diffusion = 0, shear = 0, fill = 0;
   Lanes nearest_wall = Real(1e30);  // squared distance from a wall particle [m^2]
 };
@@ -52,7 +54,8 @@ struct DensityAndShear {
     PairSums sums;
     add_fluid(i, centre, sums);
     add_walls(i, centre, sums);
-    const Real denser = moved * total(sums.approach) + total(sums.squeeze);
+    const Real denser = moved * total(sums.approach) + total(sums.squeeze) +
+                        held_together(centre, sums) * (moved * total(sums.apart) + total(sums.torn));
     excess[i] = motion.w - hollow(i, centre, total(sums.fill)) + (kind.rest_density + motion.w) * denser +
                 moved * c.flow.diffusion * total(sums.diffusion);
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
@@ -86,7 +89,11 @@ struct DensityAndShear {
       const Lanes volume = select(near, there.w, Lanes(0)), weight = volume * c.flow.smoothing.gradient(r2);
       if (centre.hollow > 0) sums.fill += volume * c.flow.smoothing.value(r2);
       const Lanes approach = dot(slip, d);
-      sums.approach += volume * continuity_slope(centre, r2) * approach;
+      sums.approach += weight * approach;
+      if (centre.in_tension > 0) {
+        sums.apart += volume * c.flow.smoothing.tension_gradient(r2) * approach - weight * approach;
+        sums.around -= weight * other.w, sums.sizes -= weight * magnitude(other.w);
+      }
       const Lanes smooth = (Real(0.5) * inverse_stiffness * c.flow.inverse_gradient_sum) *
                            dot(f + xyz(gather(c.fluid.by_pressure, j)), d);
       const Lanes viscosity = gather(c.fluid.state, j).y;
@@ -109,11 +116,13 @@ struct DensityAndShear {
     return tension_share(c.flow, state.w / state.z, state.y);
   }
 
-  // F, or between it and that of pairs under tension.
-  HOST_DEVICE Lanes continuity_slope(const Centre& centre, Lanes r2) const {
-    const Lanes slope = c.flow.smoothing.gradient(r2);
-    if (!(centre.in_tension > 0)) return slope;
-    return slope + centre.in_tension * (c.flow.smoothing.tension_gradient(r2) - slope);
+  // Of a particle below zero the share of the function for tension, as far as the fluid around it is below
+  // zero too. A single one between others above is noise: with two functions, one on its way down and the
+  // other up, sheared fluid would gain volume.
+  HOST_DEVICE Real held_together(const Centre& centre, const PairSums& sums) const {
+    if (!(centre.in_tension > 0)) return 0;
+    const Real sizes = total(sums.sizes);
+    return sizes > 0 ? centre.in_tension * larger(Real(0), -total(sums.around) / sizes) : Real(0);
   }
 
   // Of a pair with this sum of viscosities: what sways between thick neighbours their viscosity damps.
@@ -154,7 +163,10 @@ struct DensityAndShear {
       const Lanes volume = select(near, Lanes(c.flow.wall_volume), Lanes(0)),
                   weight = volume * c.flow.smoothing.gradient(r2);
       if (centre.hollow > 0) sums.fill += volume * c.flow.smoothing.value(r2);
-      sums.squeeze += volume * continuity_slope(centre, r2) * dot(change, d);
+      const Lanes closer = dot(change, d);
+      sums.squeeze += weight * closer;
+      if (centre.in_tension > 0)
+        sums.torn += volume * c.flow.smoothing.tension_gradient(r2) * closer - weight * closer;
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure * inverse_stiffness - centre.excess + slope * dot(falls, d);

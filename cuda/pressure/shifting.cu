@@ -28,8 +28,17 @@ struct Shift {
     const Real fill = total(sum.fill) / static_cast<Real>(c.flow.dimensions),
                off = std::sqrt(least(sum.nearest)) / c.flow.spacing - Real(1);
     const Real share = ramp((fill - surface) / (inside - surface)) * ramp(off);
-    const Real pace = smaller(step.amount * step.shear_rate[i] * step.dt, most);
+    const Real pace = damped(i) * smaller(step.amount * step.shear_rate[i] * step.dt, most);
     position[i] -= to_double((square(c.flow.support) * pace * share) * total(sum.gradient));
+  }
+
+  // Density takes no notice of the ways. What they do to it, and to the energy, viscosity must take: thin
+  // fluid in a closed vessel would sink by and by.
+  HOST_DEVICE Real damped(Index i) const {
+    constexpr Real reference = 20;
+    const Quad state = c.fluid.state[i];
+    const Real inertia = state.w / state.z * step.shear_rate[i] * square(c.flow.support);
+    return state.y / (state.y + inertia / reference);
   }
 
   HOST_DEVICE static Real ramp(Real x) { return smaller(Real(1), larger(Real(0), x)); }

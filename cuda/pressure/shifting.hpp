@@ -13,7 +13,7 @@ struct ShiftStep {
 };
 
 // Moves each particle down the gradient of the concentration of particles, walls included,
-//   dx_i = -h^2 min(A gamma_i dt, 0.024) S_i sum_j V_j F18_ij x_ij
+//   dx_i = -h^2 min(A gamma_i dt, 0.024) D_i S_i sum_j V_j F18_ij x_ij,  D = 1/(1 + rho gamma h^2/(20 eta))
 // (S. J. Lind et al., J. Comput. Phys. 231 (2012) 1499, with the shear rate for the pace: nothing moves in a
 // plug, or in a rigid motion), F18 that of a function so steep that only the nearest neighbours count
 // (Smoothing::crowding_gradient). S_i is 0 at and next to a free surface, where T_i = sum_j V_j |F_ij| r^2 /

@@ -81,7 +81,9 @@ TEST_P(Shifting, MatchesOracle) {
     const Crowding c = crowding(w, i);
     auto ramp = [](double x) { return std::min(1.0, std::max(0.0, x)); };
     const double share = ramp((c.fill - 0.92) / 0.05) * ramp(c.wall / Scene::spacing - 1);
-    const double factor = square(w.support) * std::min(amount * rate(i) * dt, 0.024);
+    const reference::Particle& p = w.particles[i];
+    const double inertia = p.mass / p.volume * rate(i) * square(w.support) / p.viscosity;
+    const double factor = square(w.support) * std::min(amount * rate(i) * dt, 0.024) / (1 + inertia / 20);
     const double rounding = 100 * epsilon * factor * c.size * (1 + c.fill / 0.05);
     EXPECT_NEAR(shift[i].x, -factor * share * c.gradient.x, rounding) << i;
     EXPECT_NEAR(shift[i].y, -factor * share * c.gradient.y, rounding) << i;
@@ -105,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(, Shifting, testing::ValuesIn(all_scenes()),
 TEST(ShiftingInALattice, PartsAPairAndLeavesTheRest) {
   Scene scene({3, Surroundings::free, 9, 0, 1});
   auto& particles = scene.world.particles;
-  for (auto& p : particles) p.volume = 1e-6, p.fluid = 0;
+  for (auto& p : particles) p.volume = 1e-6, p.fluid = 0, p.viscosity = 1000;
   const std::size_t left = 4 + 9 * (4 + 9 * 4), right = left + 1, corner = 0;
   particles[left].x.x += 0.3 * Scene::spacing, particles[right].x.x -= 0.3 * Scene::spacing;
   const std::vector<Vec3d> shift = shifts(scene, [](std::size_t) { return 50.0; });
