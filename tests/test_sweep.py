@@ -131,7 +131,7 @@ class Sweep(unittest.TestCase):
 
     def run_each_point_once(self, *engine):
         done = self.run_sweep(*engine)
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("1 of 3 points done", done.stdout)
         self.assertIn("failed: oil=B_fraction=0: error: too thick", done.stderr)
         self.assertEqual(len(self.calls()), 3)
@@ -140,7 +140,7 @@ class Sweep(unittest.TestCase):
             self.assertEqual([line["jet.tan_theta"] for line in csv.DictReader(file)], ["0.25", "", ""])
         self.run_sweep(*engine)
         self.assertEqual(len(self.calls()), 3)  # nothing is run again
-        self.run_sweep("--retry", *engine)
+        self.assertEqual(self.run_sweep("--retry", *engine).returncode, 1)
         self.assertEqual(len(self.calls()), 5)  # but for the failed ones when asked for
         self.run_sweep("--set", "output.end_time=0.7", *engine)
         self.assertEqual(len(self.calls()), 8)  # another sweep of the same name
@@ -161,6 +161,7 @@ class Sweep(unittest.TestCase):
                           ["B", "0.5", "failed", "-"]])
 
     def test_results_go_to_the_folder_it_is_started_in(self):
+        self.file.write_text(SWEEP.replace("viscosity\" = 0.3", "viscosity\" = 0.2"))
         done = self.sweep(where=self.folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(f"results go to {(self.folder / 'runs/sweeps/fall').resolve()}", done.stdout)
