@@ -39,7 +39,7 @@ class Filler {
     for (std::size_t b = 0; b < solids_.count(); ++b)
       if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
     warn_of_more_faces();
-    warn_of_empty_walls();
+    warn_of_walls();
     for (std::string& warning : survey_.warnings()) result_.warnings.push_back(std::move(warning));
     const auto sites = std::make_shared<StartSites>(lattice_, std::move(body_), std::move(site_));
     result_.fluid.pressure = start_pressure(c_, *sites, result_.fluid, region_);
@@ -112,14 +112,18 @@ class Filler {
   // Where the sites are.
   std::string plane() const { return c_.dimensions == 2 ? "in the plane y = 0, " : ""; }
 
-  // Fluid passes through them.
-  void warn_of_empty_walls() {
+  // Fluid passes through those without a particle.
+  void warn_of_walls() {
     const std::vector<std::uint8_t>& bodies = result_.walls.body;
-    for (std::size_t b = 0; b < c_.walls.size(); ++b)
-      if (std::find(bodies.begin(), bodies.end(), b) == bodies.end())
-        result_.warnings.push_back(
-            "wall '" + c_.walls[b].name + "' has no particle: its shapes hold no lattice site " + plane() +
-            "near the inside of the domain, or other walls have them" + unit_hint(c_, c_.walls[b].shapes));
+    for (std::size_t b = 0; b < c_.walls.size(); ++b) {
+      const bool empty = std::find(bodies.begin(), bodies.end(), b) == bodies.end();
+      const std::string told = empty ? "wall '" + c_.walls[b].name +
+                                           "' has no particle: its shapes hold no lattice site " + plane() +
+                                           "near the inside of the domain, or other walls have them" +
+                                           unit_hint(c_, c_.walls[b].shapes)
+                                     : unit_warning(c_, c_.walls[b]);
+      if (!told.empty()) result_.warnings.push_back(told);
+    }
   }
 
   // A site, or the place a quarter of a spacing off the wall that it is nearer to than that: a curved or

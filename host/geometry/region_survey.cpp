@@ -139,18 +139,11 @@ std::string reason_without_site(const Case& c, const RegionSpec& region, const S
 }
 
 struct Unit {
-  double factor;
+  double scale;
   const char* name;
 };
-constexpr std::array<Unit, 9> units{{{1e-3, "drawn in mm and read as m"},
-                                     {0.0254, "drawn in inches and read as m"},
-                                     {1e-2, "drawn in cm and read as m"},
-                                     {0.1, "a tenth"},
-                                     {1 / 25.4, "drawn in mm and read as inches"},
-                                     {1e3, "drawn in m and read as mm"},
-                                     {25.4, "drawn in inches and read as mm"},
-                                     {10, "drawn in cm and read as mm"},
-                                     {100, "drawn in m and read as cm"}}};
+constexpr std::array<Unit, 4> units{{{1e-3, "mm"}, {0.0254, "inches"}, {1e-2, "cm"}, {1, "m"}}};
+constexpr double small = 0.04, enough = 0.2;  // of the domain
 
 // Its largest side over the domain's; 0 where it does not meet the domain, or is larger.
 double fit(const Case& c, const Extents& e) {
@@ -163,6 +156,46 @@ double fit(const Case& c, const Extents& e) {
     size = std::max(size, side), room = std::max(room, across);
   }
   return size / room;
+}
+
+// The scale in which a file fits the domain, with "; " before, or empty.
+std::string fitting_scale(const Case& c, const StlSpec& stl, const Extents& e) {
+  for (const Unit& unit : units) {
+    const double factor = unit.scale / stl.scale;
+    const Extents scaled{stl.translate + factor * (e.lower - stl.translate),
+                         stl.translate + factor * (e.upper - stl.translate)};
+    if (std::abs(factor - 1) < 0.01 || fit(c, scaled) < enough) continue;
+    return "; '" + std::filesystem::path(stl.file).filename().string() + "' reaches " +
+           range_of(e.lower, e.upper) + ", the domain " + range_of(c.domain.lower, c.domain.upper) +
+           ": with scale = " + show(unit.scale) + " it would fit; was it drawn in " + unit.name + "?";
+  }
+  return "";
+}
+
+// Larger than the domain along every axis manyfold, or hardly more than a speck in it.
+bool far_from_fitting(const Case& c, const Extents& e) {
+  constexpr double manyfold = 3, speck = 4;  // of the domain; [spacings]
+  bool larger = true;
+  double size = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (!counts(c, k)) continue;
+    const double side = e.upper[k] - e.lower[k];
+    larger = larger && side > manyfold * (c.domain.upper[k] - c.domain.lower[k]);
+    size = std::max(size, side);
+  }
+  return larger || size < speck * c.spacing;
+}
+
+template <class Suspect>
+std::string scale_of_suspects(const Case& c, const std::vector<ShapeSpec>& shapes, Suspect suspect) {
+  for (const ShapeSpec& shape : shapes) {
+    const auto* const stl = std::get_if<StlSpec>(&shape.form);
+    if (!stl) continue;
+    const Extents e = make_form({*stl, false})->extents();
+    const std::string told = suspect(e) ? fitting_scale(c, *stl, e) : "";
+    if (!told.empty()) return told;
+  }
+  return "";
 }
 
 }  // namespace
@@ -210,22 +243,15 @@ std::vector<std::string> cut_warnings(const Case& c, std::size_t index, const So
 }
 
 std::string unit_hint(const Case& c, const std::vector<ShapeSpec>& shapes) {
-  constexpr double small = 0.04, enough = 0.2;  // of the domain
-  for (const ShapeSpec& shape : shapes) {
-    const auto* const stl = std::get_if<StlSpec>(&shape.form);
-    if (!stl) continue;
-    const Extents e = make_form({*stl, false})->extents();
-    if (fit(c, e) > small) continue;
-    for (const Unit& unit : units) {
-      const Extents scaled{stl->translate + unit.factor * (e.lower - stl->translate),
-                           stl->translate + unit.factor * (e.upper - stl->translate)};
-      if (fit(c, scaled) < enough) continue;
-      return "; '" + std::filesystem::path(stl->file).filename().string() + "' reaches " +
-             range_of(e.lower, e.upper) + ", the domain " + range_of(c.domain.lower, c.domain.upper) +
-             ": with scale = " + show(stl->scale * unit.factor) + " it would fit; was it " + unit.name + "?";
-    }
-  }
-  return "";
+  return scale_of_suspects(c, shapes,
+                           [&](const Extents& e) { return fit(c, e) <= small || far_from_fitting(c, e); });
+}
+
+std::string unit_warning(const Case& c, const WallSpec& wall) {
+  const auto suspect = [&](const Extents& e) { return far_from_fitting(c, e); };
+  std::string told = scale_of_suspects(c, wall.shapes, suspect);
+  if (told.empty()) told = scale_of_suspects(c, wall.subtract, suspect);
+  return told.empty() ? told : "wall '" + wall.name + "' does not suit the domain" + told;
 }
 
 }  // namespace slagflow

@@ -92,6 +92,27 @@ TEST(RegionSurvey, AWallInAnotherUnitIsTold) {
   EXPECT_THAT(error_of(c), AllOf(HasSubstr("inside walls"), HasSubstr("with scale = 0.001")));
 }
 
+TEST(RegionSurvey, AWallThatIsThereInAnotherUnitIsTold) {
+  // -1 to 9.9 m in mm: the domain is 10 m.
+  ShapeSpec shape = stl_shape(stl_box("trough.stl", {-1000, -1000, -1000}, {9900, 9900, 9900}));
+  const auto warnings = [&](double scale) {
+    Case c = unit_case();
+    std::get<StlSpec>(shape.form).scale = scale;
+    c.walls = {wall("trough", {box({0, 0, 0}, {10, 10, 4}), outside(shape)})};
+    return build_setup(c).warnings;
+  };
+  for (const double scale : {1e-2, 0.0254, 0.1, 1.0})
+    EXPECT_THAT(warnings(scale),
+                Contains(AllOf(HasSubstr("wall 'trough' does not suit the domain; 'trough.stl'"),
+                               HasSubstr("with scale = 0.001 it would fit"))));
+  EXPECT_THAT(warnings(1e-3), Not(Contains(HasSubstr("suit"))));
+  Case small = unit_case();
+  std::get<StlSpec>(shape.form).scale = 1e-5;
+  small.walls = {wall("trough", {shape})};
+  EXPECT_THAT(build_setup(small).warnings,
+              Contains(AllOf(HasSubstr("no particle"), HasSubstr("scale = 0.001"))));
+}
+
 TEST(RegionSurvey, WhatIsCutIsTold) {
   const auto warnings = [](const Case& c) { return build_setup(c).warnings; };
   EXPECT_THAT(
