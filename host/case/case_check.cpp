@@ -248,6 +248,7 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_tension_limits(c, problems);
   check_numerics(c, problems);
   check_scale(c, problems);
+  check_fluids(c, problems);
 }
 
 }  // namespace slagflow

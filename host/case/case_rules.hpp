@@ -27,4 +27,7 @@ bool is_plain_name(const std::string& name);
 // What concerns several tables: periodic extents, measures against the domain, two dimensions.
 void check_across_tables(const Case& c, CaseProblems& problems);
 
+// Fluids more viscous at rest than single precision computes with.
+void check_fluids(const Case& c, CaseProblems& problems);
+
 }  // namespace slagflow

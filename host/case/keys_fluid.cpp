@@ -6,6 +6,9 @@
 namespace slagflow {
 namespace {
 
+// Of a gas to more than any solid.
+Range densities() { return between(1e-3, 1e6, "kg/m^3"); }
+
 template <class Infos>
 Words names_of(const Infos& infos) {
   Words names;
@@ -41,9 +44,8 @@ void describe_suspension(CaseVisitor& v, SuspensionSpec& s) {
                                  law ? fractions(s.law) : between(0, 1, ""));
   const bool liquid =
       v.number(required("liquid_density", "density of the mixture: (1 − φ) liquid_density + φ solid_density"),
-               s.liquid_density, above(0, "kg/m^3"));
-  const bool solid =
-      v.number(required("solid_density", "of the solids alone"), s.solid_density, above(0, "kg/m^3"));
+               s.liquid_density, densities());
+  const bool solid = v.number(required("solid_density", "of the solids alone"), s.solid_density, densities());
   const bool viscous = v.number(required("liquid_viscosity",
                                          "η₀: the viscosity of the rheology becomes η₀ times the "
                                          "relative viscosity of the law"),
@@ -112,7 +114,7 @@ void describe_fluid(CaseVisitor& v, FluidSpec& fluid) {
   if (const auto with =
           v.only(!suspended, {"no suspension"}, "a suspension has liquid_density and solid_density instead"))
     v.number(required("density", "at rest; of a suspension its own keys instead"), fluid.density,
-             above(0, "kg/m^3"));
+             densities());
   if (const auto with = v.only(suspended, {"a suspension"})) describe_suspension(v, suspension);
   if (suspended) fluid.density = suspension.density();
   v.number(key("surface_tension", "σ in (20); 0: none. See Surface tension"), fluid.surface_tension,

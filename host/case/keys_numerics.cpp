@@ -152,7 +152,7 @@ void describe(CaseVisitor& v, NumericsSetup& n) {
           "w of equation (7); lattice: right on lattices in every direction; value: A W; gradient: -F/r²"),
       n.viscous_weight, weight_names);
   v.number(key("sound_speed", "c₀ of equation (11); auto: see The automatic sound speed").or_word("auto", 0),
-           n.sound_speed, above(0, "m/s"));
+           n.sound_speed, between(1e-6, 1e6, "m/s"));
   v.number(key("courant", "equation (13)"), n.courant, above_to(0, 1.2, ""));
   v.number(key("max_time_step", "0: no further limit"), n.max_time_step, at_least(0, "s"));
   v.number(key("density_diffusion",

@@ -101,8 +101,8 @@ TEST(CaseMessages, LongValuesAndKeysAreCut) {
 
 TEST(CaseMessages, BeyondTheLargestNumberThatIsTold) {
   for (const char* value : {"1e31", "inf", "1e400"})
-    EXPECT_THAT(error_of(tiny_case(), {std::string("fluid.oil.density=") + value}),
-                HasSubstr("allowed: a number > 0.0 and <= 1e+30 [kg/m^3]"))
+    EXPECT_THAT(error_of(tiny_case(), {std::string("fluid.oil.plastic_viscosity=") + value}),
+                HasSubstr("allowed: a number > 0.0 and <= 1e+30 [Pa s]"))
         << value;
 }
 
