@@ -57,6 +57,14 @@ void check_rows(CaseVisitor& v, const WallMotion& m) {
     v.problem("angle", "does not begin with 0: allowed: angles from the place at the start");
 }
 
+// A motion without any is none.
+void require_one(CaseVisitor& v, std::initializer_list<const char*> keys) {
+  if (!v.takes_defaults() || v.given(keys)) return;
+  std::string names;
+  for (const char* const name : keys) names += (names.empty() ? "" : " or ") + std::string(name);
+  v.problem("", "without " + names + " it moves nothing: allowed: one of them, or both");
+}
+
 void describe_rows(CaseVisitor& v, WallMotion& m) {
   const bool timed = v.numbers(required("time", "of the rows; the first row is zero"), m.time, times_allowed);
   if (timed) check_times(v, m.time);
@@ -64,6 +72,7 @@ void describe_rows(CaseVisitor& v, WallMotion& m) {
             "a list of [x, y, z] [m], one for each time");
   v.numbers(key("angle", "about axis, one for each time"), m.angle,
             "a list of angles [rad], one for each time");
+  require_one(v, {"displacement", "angle"});
   if (m.displacement.empty()) m.displacement.resize(m.time.size());
   if (timed) check_rows(v, m);
   const bool turns = !m.angle.empty();
@@ -78,6 +87,7 @@ void describe_rows(CaseVisitor& v, WallMotion& m) {
 void describe_steady(CaseVisitor& v, WallMotion& m) {
   if (const auto with = v.only(m.kind == MotionKind::constant || m.kind == MotionKind::ramp,
                                {"type", {"constant", "ramp"}})) {
+    require_one(v, {"velocity", "angular_velocity"});
     v.vector(key("velocity", "v, of the shift"), m.velocity, any_number("m/s"));
     v.vector(key("angular_velocity", "ω, about center"), m.angular_velocity, any_number("rad/s"));
   }
@@ -86,6 +96,7 @@ void describe_steady(CaseVisitor& v, WallMotion& m) {
 }
 
 void describe_sine(CaseVisitor& v, WallMotion& m) {
+  require_one(v, {"amplitude", "angular_amplitude"});
   v.vector(key("amplitude", "A, of the shift"), m.amplitude, any_number("m"));
   v.vector(key("angular_amplitude", "B, of the turn about center"), m.angular_amplitude, any_number("rad"));
   v.number(required("frequency", "f, of the sine"), m.frequency, above(0, "Hz"));

@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "backend/error.hpp"
+#include "host/case/toml_reader.hpp"
 #include "host/geometry/enclosed.hpp"
 #include "host/geometry/geometry.hpp"
 #include "host/geometry/settling.hpp"
 #include "host/geometry/setup_warnings.hpp"
+#include "host/geometry/slips.hpp"
 #include "host/geometry/start_survey.hpp"
 
 namespace slagflow {
@@ -29,6 +31,20 @@ FluidSetup fluid_setup(const FluidSpec& spec) {
   fluid.surface_tension = spec.surface_tension;
   fluid.rheology = spec.law();
   return fluid;
+}
+
+// The pressure of all fluid at the start compresses it.
+void check_background(const BuiltCase& built) {
+  const Case& c = built.resolved;
+  double lightest = c.fluids.front().density;
+  for (const FluidSpec& fluid : c.fluids) lightest = std::min(lightest, fluid.density);
+  const double most = c.limits.max_compression * lightest * square(c.numerics.sound_speed);
+  if (c.numerics.background_pressure <= most) return;
+  const char* const key = "numerics.background_pressure";
+  throw InputError(c.place_of(key) + ": key '" + key + "': value " + show(c.numerics.background_pressure) +
+                   " compresses the fluid at the start by more than limits.max_compression: allowed: >= 0 "
+                   "and <= " +
+                   show(most) + " [Pa], max_compression rho sound_speed^2");
 }
 
 // What the simulation measures, by kind, in the order of the case.
@@ -69,6 +85,7 @@ BuiltCase build_setup(const Case& c) {
   if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, closed);
   double& background = built.resolved.numerics.background_pressure;
   if (background < 0) background = automatic_background(built.resolved, filling, closed);
+  check_background(built);
   for (double& pressure : filling.fluid.pressure) pressure += background;
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_start(c, filling, built.warnings);
@@ -95,6 +112,7 @@ BuiltCase build_setup(const Case& c) {
   setup.limits = built.resolved.limits;
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
   warn_of_setup(built, wall_speeds);
+  warn_of_slips(c, setup, built.warnings);
   return built;
 }
 

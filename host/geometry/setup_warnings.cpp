@@ -32,11 +32,33 @@ void warn_of_unused_fluids(const Case& c, std::vector<std::string>& warnings) {
 
 // Slags, metals and oils are heavier than that.
 void warn_of_light_fluids(const Case& c, std::vector<std::string>& warnings) {
-  constexpr double light = 100;  // [kg/m^3]
+  constexpr double light = 100, heaviest = 23, pound_per_cubic_foot = 16.01846;  // [kg/m^3], [g/cm^3]
   for (const FluidSpec& fluid : c.fluids)
     if (fluid.density < light)
-      warnings.push_back("fluid '" + fluid.name + "': a density of " + show(fluid.density) +
-                         " kg/m^3; is it meant in g/cm^3? Then density = " + show(1000 * fluid.density));
+      warnings.push_back(
+          "fluid '" + fluid.name + "': a density of " + show(fluid.density) +
+          " kg/m^3, less than that of melts and oils; is it meant in " +
+          (fluid.density <= heaviest
+               ? "g/cm^3? Then density = " + show(1000 * fluid.density)
+               : "lb/ft^3? Then density = " + show(std::round(pound_per_cubic_foot * fluid.density))));
+}
+
+// Two layers at rest, measured: 30 to 1 stay, 100 to 1 with a shorter time step, 1000 to 1 do not.
+void warn_of_density_ratio(const Case& c, std::vector<std::string>& warnings) {
+  constexpr double stable = 30, most = 100, careful = 0.3;
+  const auto lighter = [](const FluidSpec& a, const FluidSpec& b) { return a.density < b.density; };
+  const auto [light, heavy] = std::minmax_element(c.fluids.begin(), c.fluids.end(), lighter);
+  const double ratio = heavy->density / light->density;
+  if (ratio <= stable || (ratio <= most && c.numerics.courant <= careful)) return;
+  std::array<char, 400> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "' is %.3g times as dense as '%s': where they meet, layers at rest stay at rest up to %g to 1; "
+      "%s",
+      ratio, light->name.c_str(), stable,
+      ratio > most ? "beyond 100 to 1 they do not, up to that with numerics.courant = 0.3"
+                   : "numerics.courant = 0.3 keeps them up to 100 to 1");
+  warnings.push_back("fluid '" + heavy->name + text.data());
 }
 
 // A drop at rest is stirred by the pull between its unevenly spaced particles: at this number of 0.3, 0.1,
@@ -112,6 +134,7 @@ void warn_of_setup(BuiltCase& built, const std::vector<double>& wall_speeds) {
   const Case& c = built.resolved;
   warn_of_unused_fluids(c, built.warnings);
   warn_of_light_fluids(c, built.warnings);
+  warn_of_density_ratio(c, built.warnings);
   warn_of_currents(c, built.warnings);
   warn_of_fast_walls(wall_speeds, built.setup, built.warnings);
   warn_of_support(c, built.warnings);

@@ -148,6 +148,8 @@ TEST(CaseWalls, NameWhatIsWrongWithAMotion) {
   EXPECT_THAT(table("time=[0, 1], displacement=[[0,0,0]]"), HasSubstr("1 entries for 2 times"));
   EXPECT_THAT(table("time=[0, 1], displacement=[[1,0,0],[1,0,0]]"),
               HasSubstr("does not begin with [0, 0, 0]"));
+  EXPECT_THAT(table("time=[0, 1]"),
+              HasSubstr("'wall.0.motion': without displacement or angle it moves nothing"));
   EXPECT_THAT(table("time=[0, 1], angle=[0, 1]"), HasSubstr("'wall.0.motion.axis': missing"));
   EXPECT_THAT(message_of("motion = {type='table', time=[0, 'a'], displacement=[[0,0,0]]}"),
               HasSubstr("'wall.0.motion.time'"));
