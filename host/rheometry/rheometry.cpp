@@ -1,5 +1,7 @@
 #include "host/rheometry/rheometry.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +26,7 @@ constexpr const char *table_mark = " by slagflow ", *curves_mark = ",measured_Pa
 
 template <class... Arguments>
 std::string print(const char* pattern, Arguments... arguments) {
-  std::array<char, 200> text{};
+  std::array<char, 300> text{};
   std::snprintf(text.data(), text.size(), pattern, arguments...);
   return text.data();
 }
@@ -97,6 +99,10 @@ std::string require_output(const RheometryOptions& options) {
   if (std::filesystem::equivalent(curves, options.file, ignored))
     throw InputError("output " + options.output + ": its curves would replace the measurements in " + curves +
                      ": allowed: another name");
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  if (!std::filesystem::is_directory(folder, ignored) || ::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError("output " + options.output + ": " + folder +
+                     " is no folder that can be written to: allowed: a name in one");
   require_own(options.output, table_mark);
   require_own(curves, curves_mark);
   return curves;
@@ -111,6 +117,11 @@ void add_fit_warnings(RheometryResult& result, const RheometryOptions& options) 
     warnings.push_back(options.file + ": " +
                        print("the interval of the yield stress, %.4g to %.4g Pa, reaches 0",
                              best.yield_stress.low, best.yield_stress.high));
+  if (best.model != FlowModel::newtonian && best.consistency.low <= 0)
+    warnings.push_back(
+        options.file + ": " +
+        print("the interval of the viscosity, %.4g to %.4g, reaches 0: these rates do not tell it",
+              best.consistency.low, best.consistency.high));
   if (result.measured.facts.spindle && best.model != FlowModel::newtonian)
     warnings.push_back(
         options.file + ": the maker's factor of spindle " + *result.measured.facts.spindle +
@@ -126,6 +137,31 @@ void add_fit_warnings(RheometryResult& result, const RheometryOptions& options) 
                        print("the %s and %s models fit almost alike: AICc differs by %.2g",
                              name_of(result.fits[0].model), name_of(result.fits[1].model),
                              result.fits[1].aicc - result.fits[0].aicc));
+}
+
+// A stress that does not rise leaves no viscosity to be found.
+void require_rise(const FlowCurve& curve, const std::string& file) {
+  constexpr double least = 1e-4;  // of the mean stress, from the first rate to the last
+  const auto n = static_cast<double>(curve.rate.size());
+  double x = 0, y = 0, xx = 0, xy = 0;
+  for (std::size_t k = 0; k < curve.rate.size(); ++k) {
+    const double rate = std::log(curve.rate[k]);
+    x += rate, y += curve.stress[k], xx += rate * rate, xy += rate * curve.stress[k];
+  }
+  const double slope = (n * xy - x * y) / (n * xx - x * x), mean = y / n;
+  const double rise = slope * std::log(curve.rate.back() / curve.rate.front());
+  if (rise > least * mean) return;
+  const bool falls = rise < -least * mean;
+  throw InputError(
+      file + ": the stress " + (falls ? "falls" : "stays the same") + " while the rate rises " +
+      print("%.3g-fold, ", curve.rate.back() / curve.rate.front()) +
+      (falls ? print("by %.3g %% in all: no fluid of this program does; wall slip, settling, a sample "
+                     "that breaks down?",
+                     -100 * rise / mean)
+             : print("at %.4g Pa: that would be a yield stress of %.4g Pa with a plastic viscosity of 0, "
+                     "which is not determined; wall slip, a limit of the instrument?",
+                     mean, mean)) +
+      " allowed: a stress that rises with the rate");
 }
 
 // Rates of the curves: as many for each factor of ten, a little beyond the measured ones.
@@ -151,6 +187,7 @@ RheometryResult analyse(const RheometryOptions& options) {
         options.file + ": " + std::to_string(count) + " points are too few " +
         (options.model ? std::string("for the ") + name_of(*options.model) + " model" : "to choose a model") +
         ": allowed: at least " + std::to_string(needed));
+  require_rise(curve, options.file);
   result.fits = fit_all(curve, options.errors);
   result.chosen = choose(result, options);
   if (result.best().flow_index.value > most_flow_index)

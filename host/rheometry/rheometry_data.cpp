@@ -78,9 +78,22 @@ class Reader {
     facts.table = given_.table;
     if (facts.name && (!is_plain_name(*facts.name) || facts.name->find('.') != std::string::npos))
       problem("name \"" + *facts.name + "\": allowed: up to 100 of letters, digits, _ -");
+    warn_of_metres();
     if (!facts.spindle) return;
     spindle_ = find_spindle(*facts.spindle);
     if (!spindle_) problem("spindle \"" + *facts.spindle + "\": allowed: " + allowed_spindles);
+  }
+
+  // Options are in metres; in files such values are refused.
+  void warn_of_metres() {
+    const auto check = [&](const std::optional<double>& value, Quantity q, const char* option) {
+      if (value && *value > info(q).most)
+        warn(std::string(option) + " " + text_of(*value) +
+             " m is larger than any viscometer's: is it meant in mm? Then " + text_of(*value / 1e3) + " m");
+    };
+    check(given_.bob_radius, Quantity::bob_radius, "--bob-radius");
+    check(given_.cup_radius, Quantity::cup_radius, "--cup-radius");
+    check(given_.height, Quantity::height, "--height");
   }
 
   void read_rows(const Tables& tables) {
@@ -91,7 +104,7 @@ class Reader {
     options.cylinders = spindle_ || (facts.bob_radius && facts.cup_radius && facts.height);
     options.only = facts.table;
     readings_ = read_tables(tables, options, file_, problems_);
-    result_.warnings = readings_.warnings;
+    result_.warnings.insert(result_.warnings.end(), readings_.warnings.begin(), readings_.warnings.end());
     several_ = tables.blocks.size() > 1 && !facts.table;
     if (several_)
       warn(file_ + ": the " + std::to_string(tables.blocks.size()) + " tables of lines" + lines_of(tables) +
@@ -155,11 +168,26 @@ class Reader {
       curve.cylinders =
           spindle_ ? spindle_->cylinders() : Cylinders{*facts.bob_radius, *facts.cup_radius, *facts.height};
     for (const Reading& reading : readings_.readings) points_.push_back(point_of(reading));
+    warn_of_other_viscosity();
     std::stable_sort(points_.begin(), points_.end(),
                      [](const Point& a, const Point& b) { return a.rate < b.rate; });
     for (const Point& point : points_) {
       curve.rate.push_back(point.rate);
       curve.stress.push_back(point.stress);
+    }
+  }
+
+  // Of the file beside the one of torque and geometry; the first that differs.
+  void warn_of_other_viscosity() {
+    constexpr double most = 1.5;
+    for (std::size_t k = 0; k < points_.size() && result_.curve.cylinders; ++k) {
+      const double given = readings_.readings[k].viscosity;
+      const double here = points_[k].stress / result_.curve.cylinders->nominal_rate(points_[k].rate);
+      if (!(given > 0) || (here < most * given && given < most * here)) continue;
+      warn(at(points_[k].line) + "the file gives a viscosity of " + text_of(given) +
+           " Pa s, rotation and torque " + text_of(here) +
+           " Pa s: " + (spindle_ ? "the wrong spindle, or another series?" : "the right radii and height?"));
+      return;
     }
   }
 

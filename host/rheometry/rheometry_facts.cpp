@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 
 #include "host/rheometry/rheometry_spindles.hpp"
@@ -33,6 +34,25 @@ std::optional<double> value_of(const std::string& text) {
   return number_of(text, form == NumberForm::with_comma ? DecimalSign::comma : DecimalSign::point);
 }
 
+// The series of spindles that a line names as its viscometer's: "Brookfield LVT", "Modell DV2TRV".
+const char* series_of(const std::string& line) {
+  const std::string lower = lower_case(line);
+  const auto says = [&](const char* word) { return lower.find(word) != std::string::npos; };
+  if (!says("brookfield") && !says("visco") && !says("visko") && !says("model")) return "";
+  std::string word;
+  for (const char c : lower + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c))) {
+      word += c;
+      continue;
+    }
+    for (const char* const series : {"lv", "rv"})
+      if (word.rfind(series, 0) == 0 || (word.size() > 2 && word.compare(word.size() - 2, 2, series) == 0))
+        return series;
+    word.clear();
+  }
+  return "";
+}
+
 class FactsReader {
  public:
   explicit FactsReader(std::vector<Problem>& problems) : problems_(problems) {}
@@ -51,6 +71,9 @@ class FactsReader {
   // Lines of an export: only what is a fact beyond doubt.
   void read_line(const Record& record) {
     std::vector<std::string> words = record.fields;
+    std::string all;
+    for (const std::string& word : words) all += word + " ";
+    if (const char* const series = series_of(all); *series) series_ = series;
     words.erase(std::remove(words.begin(), words.end(), ""), words.end());
     const std::size_t joint = words[0].find_first_of("=:");
     if (joint != std::string::npos) {
@@ -59,7 +82,7 @@ class FactsReader {
       if (!rest.empty()) words.insert(words.begin() + 1, rest);
     }
     if (words.size() < 2) return;
-    if (lower_case(words[0]) == "spindle" && find_spindle(words[1])) facts_.sample.spindle = words[1];
+    if (is_spindle(words[0])) take_spindle_of_line(words[1]);
     const NumberAndRest parts = split_number(words[1]);
     const std::string unit = words.size() > 2 ? words[2] : parts.rest;
     NamedQuantity named = parse_name(words[0]);
@@ -70,17 +93,34 @@ class FactsReader {
     if (target && value && disbelief(*value, named).empty()) *target = *value * named.factor;
   }
 
-  FileFacts facts() const { return facts_; }
+  FileFacts facts() const {
+    FileFacts facts = facts_;
+    if (!facts.sample.spindle && !bare_spindle_.empty() && find_spindle(series_ + bare_spindle_))
+      facts.sample.spindle = series_ + bare_spindle_;
+    return facts;
+  }
 
  private:
   void problem(const std::string& key, const std::string& what) {
     problems_.push_back({line_, "key '" + key + "'" + what});
   }
 
+  static bool is_spindle(const std::string& word) {
+    return lower_case(word) == "spindle" || lower_case(word) == "spindel";
+  }
+
+  // A number alone is one of the series that another line names.
+  void take_spindle_of_line(const std::string& name) {
+    if (find_spindle(name))
+      facts_.sample.spindle = name;
+    else
+      bare_spindle_ = name;
+  }
+
   void take_key(const std::string& key, const std::string& value) {
     if (key == "name")
       facts_.sample.name = value;
-    else if (key == "spindle")
+    else if (is_spindle(key))
       take_spindle(value);
     else if (key == "decimal")
       take_decimal(value);
@@ -101,10 +141,13 @@ class FactsReader {
   }
 
   void take_quantity(const std::string& key, const std::string& value) {
-    const NamedQuantity named = parse_name(key);
+    NamedQuantity named = parse_name(key);
+    const NumberAndRest parts = split_number(value);
+    const bool unit_follows = named.known && !named.unit_known && !parts.rest.empty();
+    if (unit_follows) named = with_unit(named, parts.rest);
     std::optional<double>* const target = named.known ? place_of(named.quantity, facts_.sample) : nullptr;
-    if (!target || named.weak) return;
-    const std::optional<double> amount = value_of(value);
+    if (!target || (named.weak && !(unit_follows && named.unit_known))) return;
+    const std::optional<double> amount = value_of(unit_follows ? parts.number : value);
     if (!named.unit_known)
       problem(key, " has no unit that is known: allowed: " + names_of(named.quantity));
     else if (!amount)
@@ -117,6 +160,7 @@ class FactsReader {
 
   std::vector<Problem>& problems_;
   FileFacts facts_;
+  std::string series_, bare_spindle_;
   int line_ = 0;
 };
 

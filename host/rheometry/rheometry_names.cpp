@@ -19,7 +19,7 @@ struct Alias {
 };
 
 // Longer names before their beginnings.
-constexpr std::array<Alias, 65> aliases{{
+constexpr std::array<Alias, 68> aliases{{
     {"full scale torque", Quantity::full_scale_torque},
     {"bob radius", Quantity::bob_radius},
     {"cup radius", Quantity::cup_radius},
@@ -72,6 +72,8 @@ constexpr std::array<Alias, 65> aliases{{
     {"drehzahl", Quantity::rotation},
     {"回転数", Quantity::rotation},
     {"rpm", Quantity::rotation, Trust::strong, "rpm"},
+    {"u/min", Quantity::rotation, Trust::strong, "rpm"},
+    {"upm", Quantity::rotation, Trust::strong, "rpm"},
     {"spindle speed", Quantity::rotation},
     {"speed", Quantity::rotation, Trust::weak},
     {"n", Quantity::rotation, Trust::weak},
@@ -80,6 +82,7 @@ constexpr std::array<Alias, 65> aliases{{
     {"percent torque", Quantity::torque, Trust::strong, percent_unit},
     {"dial reading", Quantity::torque, Trust::strong, percent_unit},
     {"dial", Quantity::torque, Trust::strong, percent_unit},
+    {"skalenwert", Quantity::torque, Trust::strong, percent_unit},
     {"torque", Quantity::torque},
     {"drehmoment", Quantity::torque},
     {"トルク", Quantity::torque},

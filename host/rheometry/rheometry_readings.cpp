@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/rheometry/rheometry_facts.hpp"
 
@@ -47,6 +48,7 @@ class Reader {
     for (const Chosen& chosen : chosen_)
       for (const Record& row : chosen.block->rows) take(row, chosen);
     warn_of_viscosity();
+    warn_of_temperature();
     result_.how = how();
     return std::move(result_);
   }
@@ -109,7 +111,8 @@ class Reader {
   void choose_columns(std::size_t k) {
     const Block& block = tables_.blocks[k];
     Chosen chosen{&block, k, one_of(block, result_.first), one_of(block, result_.second), -1};
-    if (result_.second == Quantity::shear_stress) chosen.viscosity = block.column_of(Quantity::viscosity);
+    if (result_.second == Quantity::shear_stress || result_.second == Quantity::torque)
+      chosen.viscosity = block.column_of(Quantity::viscosity);
     const bool percent = column(chosen, chosen.second).meaning.percent;
     if (!chosen_.empty() && percent != result_.percent)
       problem(block.line, "torque in per cent and not in per cent: allowed: one of them in all tables");
@@ -225,17 +228,39 @@ class Reader {
   }
 
   void take(const Record& row, const Chosen& chosen) {
-    Reading reading{0, 0, row.line, chosen.table};
+    Reading reading{0, 0, row.line, chosen.table, viscosity_of(row, chosen)};
     const bool good = take_field(row, chosen, chosen.first, reading.first);
     if (!take_field(row, chosen, chosen.second, reading.second) || !good) return;
     result_.readings.push_back(reading);
-    if (chosen.viscosity < 0 || !column(chosen, chosen.viscosity).meaning.unit_known) return;
-    const std::optional<double> viscosity = number_of(field(row, chosen.viscosity), sign_);
-    if (!viscosity || !(*viscosity > 0)) return;
-    const double given = *viscosity * column(chosen, chosen.viscosity).meaning.factor;
+    const double given = reading.viscosity;
+    if (result_.second == Quantity::torque || !(given > 0)) return;
     if (std::abs(reading.second / (reading.first * given) - 1) > viscosity_mismatch && mismatches_++ == 0)
       mismatch_ = {row.line, "the viscosity is " + text_of(given) + " Pa s, but stress over rate " +
                                  text_of(reading.second / reading.first) + " Pa s"};
+  }
+
+  // [Pa s] of its column beside the pair; 0: none.
+  double viscosity_of(const Record& row, const Chosen& chosen) const {
+    if (chosen.viscosity < 0 || !column(chosen, chosen.viscosity).meaning.unit_known) return 0;
+    const std::optional<double> viscosity = number_of(field(row, chosen.viscosity), sign_);
+    return viscosity && *viscosity > 0 ? *viscosity * column(chosen, chosen.viscosity).meaning.factor : 0;
+  }
+
+  // Viscosity depends on it strongly.
+  void warn_of_temperature() {
+    constexpr double most = 2;  // [K]
+    for (const Chosen& chosen : chosen_)
+      for (int k = 0; k < static_cast<int>(chosen.block->columns.size()); ++k) {
+        if (lower_case(column(chosen, k).name).rfind("temp", 0) != 0) continue;
+        double low = std::numeric_limits<double>::infinity(), high = -low;
+        for (const Record& row : chosen.block->rows)
+          if (const std::optional<double> t = number_of(field(row, k), sign_))
+            low = std::min(low, *t), high = std::max(high, *t);
+        if (high - low > most)
+          warn(chosen.block->line, "the temperature goes from " + text_of(low) + " to " + text_of(high) +
+                                       " in column '" + column(chosen, k).name +
+                                       "': a flow curve is of one temperature");
+      }
   }
 
   void warn_of_viscosity() {

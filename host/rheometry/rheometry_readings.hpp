@@ -16,6 +16,7 @@ struct Reading {
   double first = 0, second = 0;
   int line = 0;
   std::size_t table = 0;
+  double viscosity = 0;  // [Pa s] that the file gives beside a torque; 0: none
 };
 
 struct ReadingsOptions {

@@ -160,5 +160,19 @@ TEST_F(Rheometry, TellsTooFewPointsForAModel) {
   EXPECT_THAT(said.err, HasSubstr("too few to try the herschel-bulkley model"));
 }
 
+TEST_F(Rheometry, RefusesAStressThatDoesNotRise) {
+  const std::string flat = folder_ / "flat.csv", falling = folder_ / "falling.csv";
+  std::ofstream(flat) << "shear_rate_1/s,shear_stress_Pa\n1,5\n2,5\n5,5\n10,5\n50,5\n";
+  std::ofstream(falling) << "shear_rate_1/s,shear_stress_Pa\n1,5\n2,4.9\n5,4.8\n10,4.7\n50,4.5\n";
+  for (const char* model : {"auto", "bingham"}) {
+    const Said said = rheometry_command({flat, "--model", model});
+    EXPECT_EQ(said.code, 2);
+    EXPECT_THAT(said.err, HasSubstr("stays the same while the rate rises 50-fold, at 5 Pa: that would be a "
+                                    "yield stress of 5 Pa"));
+    EXPECT_EQ(rheometry_command({falling, "--model", model}).code, 2);
+  }
+  EXPECT_THAT(rheometry_command({falling}).err, HasSubstr("the stress falls while the rate rises 50-fold"));
+}
+
 }  // namespace
 }  // namespace slagflow

@@ -151,5 +151,55 @@ TEST(RheometryExports, SpindlesGiveViscosity) {
               HasSubstr("x.csv:1: rotation and viscosity need the spindle"));
 }
 
+TEST(RheometryExports, SpindlesOfLinesOfText) {
+  const std::string rows = "U/min;Skalenwert\n6;20 %\n12;40 %\n18;60 %\n30;100 %\n";
+  for (const char* line : {"Spindel;LV2;", "Spindle: 62;", "Brookfield LVT;;\nSpindel;2;", "# Spindel = LV-2",
+                           "Modell;DV2TLV;\nSpindel;2;"}) {
+    const Measurements m = read(line + std::string("\n") + rows);
+    EXPECT_EQ(m.facts.spindle, "LV-2") << line;
+  }
+  EXPECT_THAT(refusal("Spindel;2;\n" + rows), HasSubstr("--spindle"));
+}
+
+TEST(RheometryExports, AnotherViscosityThanTheSpindlesIsTold) {
+  const auto warnings = [](const std::string& spindle) {
+    return read("# spindle = " + spindle +
+                "\nrpm;% torque;Viscosity (mPa.s)\n6;20;1000\n12;40;1000\n18;60;1000\n30;100;1000\n")
+        .warnings;
+  };
+  EXPECT_THAT(warnings("LV-2"), IsEmpty());
+  EXPECT_THAT(warnings("LV-3"),
+              ElementsAre(HasSubstr("x.csv:3: the file gives a viscosity of 1 Pa s, rotation "
+                                    "and torque 4 Pa s: the wrong spindle")));
+}
+
+TEST(RheometryExports, ATemperatureThatVariesIsTold) {
+  const auto warnings = [](const std::string& last) {
+    return read("Shear Rate [1/s];Shear Stress [Pa];Temperature\n1;3;1400\n2;4;1401\n5;7;1401\n10;12;" +
+                last + "\n")
+        .warnings;
+  };
+  EXPECT_THAT(warnings("1402"), testing::Not(testing::Contains(HasSubstr("temperature"))));
+  EXPECT_THAT(warnings("1350"), testing::Contains(HasSubstr("the temperature goes from 1350 to 1401")));
+}
+
+TEST(RheometryExports, RadiiOfMillimetresAsMetresAreTold) {
+  SampleFacts options;
+  options.bob_radius = 20, options.cup_radius = 21, options.height = 50;
+  EXPECT_THAT(read("rpm,torque_mNm\n1,2\n2,3\n3,4\n4,5\n", options).warnings,
+              testing::Contains(HasSubstr(
+                  "--bob-radius 20 m is larger than any viscometer's: is it meant in mm? Then 0.02 m")));
+}
+
+TEST(RheometryExports, AUnitMayFollowTheValueOfAKey) {
+  for (const char* line :
+       {"# density = 2,6 g/cm3", "# Dichte = 2,6 g/cm3", "# density_g/cm3 = 2,6", "# Dichte = 2600 kg/m3"})
+    EXPECT_DOUBLE_EQ(
+        read(line + std::string("\n") + names + "1,3\n2,4\n5,7\n10,12\n").facts.density.value_or(0), 2600)
+        << line;
+  EXPECT_THAT(refusal("# density = 2.6\n" + std::string(names) + "1,3\n2,4\n5,7\n10,12\n"),
+              HasSubstr("has no unit"));
+}
+
 }  // namespace
 }  // namespace slagflow
