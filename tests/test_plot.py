@@ -247,6 +247,11 @@ class Plot(unittest.TestCase):
             self.assertIn("allowed: times in seconds >= 0, commas between them", done.stderr)
         self.assertFalse((self.folder / "pictures").exists())
 
+    def test_times_that_do_not_ascend_are_told(self):
+        self.make_run([0, 0.1, 0.9], [5, 5, 5])
+        self.assertIn("the times 0, 5, 1 do not ascend", self.plot(self.folder, "--times", "0,5,1").stderr)
+        self.assertEqual(self.plot(self.folder, "--times", "0,0.1,0.1").stderr, "")
+
     def test_a_time_after_the_last_one_is_told(self):
         self.make_run([0, 0.1], [5, 5])
         done = self.plot(self.folder, "--times", "0.05,7")

@@ -93,6 +93,12 @@ class Sweep(unittest.TestCase):
         self.assertIn("key 'sweep.case': value 3: allowed: a case file", self.error('"base.toml"', "3"))
         self.assertIn("key 'axis.1.key': value 3: allowed: a dotted key", self.error('"fluid.oil.fraction"', "3"))
         self.assertIn("key 'exclude': value", self.error("[[exclude]]", "[exclude]"))
+        self.assertIn("a decimal point, not a comma: write 0.9", self.error("[0.0, 0.5]", "[0,9; 1,8]"))
+        self.assertIn("a decimal point, not a comma: write 0.5", self.error("end_time = 0.5", "end_time = 0,5"))
+        self.assertIn("straight quotes", self.error('"B", set', "\u201cB\u201d, set"))
+        self.assertIn("a minus sign from the keyboard", self.error("[0.0, 0.5]", "[\u22121.0, 0.5]"))
+        for path in (r'"C:\Users\base.toml"', r'"..\rinne.toml"'):
+            self.assertIn("write / in paths, or single quotes", self.error('"base.toml"', path))
         self.file.write_bytes(b"\xff" + SWEEP.encode())
         with self.assertRaisesRegex(plan.SweepError, "fall.toml: not UTF-8"):
             plan.read_sweep(self.file)

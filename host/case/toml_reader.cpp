@@ -98,10 +98,18 @@ std::string advice_on_value(const std::string& line) {
   return "";
 }
 
+// A path of Windows in double quotes, where a backslash begins an escape.
+std::string advice_on_backslashes(const std::string& line) {
+  static const std::regex path(R"("[^"]*([A-Za-z]:\\|\\[^btnfr"\\uU]|\\[uU](?![0-9A-Fa-f]{4}))[^"]*")");
+  if (!std::regex_search(line, path)) return "";
+  return "; a backslash in \"...\" begins an escape: write / in paths, or single quotes '...'";
+}
+
 // What to write instead of the first such number outside of strings; empty without one.
 std::string advice(const std::string& line) {
   if (std::string better = advice_on_characters(line); !better.empty()) return better;
   if (line.size() > longest_advised) return "";  // the search for others recurses with the length
+  if (std::string better = advice_on_backslashes(line); !better.empty()) return better;
   if (std::string better = advice_on_value(line); !better.empty()) return better;
   char quote = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {

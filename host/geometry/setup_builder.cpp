@@ -84,8 +84,10 @@ BuiltCase build_setup(const Case& c) {
   const bool closed = !has_free_surface(c, filling);
   if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, closed);
   double& background = built.resolved.numerics.background_pressure;
-  if (background < 0) background = automatic_background(built.resolved, filling, closed);
-  check_background(built);
+  if (background < 0)
+    background = automatic_background(built.resolved, filling, closed);
+  else
+    check_background(built);
   for (double& pressure : filling.fluid.pressure) pressure += background;
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_start(c, filling, built.warnings);

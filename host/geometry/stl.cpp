@@ -22,12 +22,18 @@ namespace {
 constexpr std::size_t header_bytes = 84, triangle_bytes = 50;
 constexpr std::streamoff largest_file = std::streamoff{1} << 30;
 
+// A path of Windows in double quotes loses its backslashes to escapes such as \t.
+std::string advice_on_escapes(const std::string& file) {
+  const bool escaped = std::any_of(file.begin(), file.end(), [](unsigned char c) { return c < ' '; });
+  return escaped ? "; a backslash in \"...\" begins an escape: write / in paths, or single quotes '...'" : "";
+}
+
 std::string read_bytes(const std::string& file) {
   std::error_code failure;
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
   if (size < 0 || !std::filesystem::is_regular_file(file, failure))
-    throw InputError(file + ": cannot be read");
+    throw InputError(file + ": cannot be read" + advice_on_escapes(file));
   if (size > largest_file)
     throw InputError(file + ": " + std::to_string(size) + " bytes: allowed: up to " +
                      std::to_string(largest_file));

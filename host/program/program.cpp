@@ -1,6 +1,7 @@
 #include "host/program/program.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -234,6 +235,17 @@ CLI::App* add_resume(CLI::App& app, Arguments& arguments) {
   return command;
 }
 
+// A first word that is no command.
+void require_command(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const std::string word = argv[1];
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError("command '" + shortened(word) + "': unknown: " + suggestion(word, names) +
+                   "allowed: " + join(names));
+}
+
 int dispatch(int argc, const char* const* argv) {
   CLI::App app("Smoothed-particle hydrodynamics of slag with a yield stress and a free surface.", "slagflow");
   Arguments arguments;
@@ -248,6 +260,7 @@ int dispatch(int argc, const char* const* argv) {
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
   CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);
   CLI::App* const help_command = add_help(app, arguments);
+  require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -65,7 +65,14 @@ FolderLock::~FolderLock() {
 void create_folder(const std::string& folder) {
   std::error_code failed;
   fs::create_directories(folder, failed);
-  if (failed) throw Error("cannot create the folder " + folder + ": " + failed.message());
+  if (failed == std::errc::no_space_on_device)
+    throw Error("cannot create the folder " + folder + ": " + failed.message());
+  if (failed)
+    throw InputError("cannot create the folder " + folder + ": " + failed.message() +
+                     ": allowed: -o with a folder that can be written to");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw InputError(folder + ": cannot be written to: " + std::strerror(errno) +
+                     ": allowed: -o with a folder that can be");
 }
 
 void clear_folder(const std::string& folder) {

@@ -45,6 +45,22 @@ def matches(values, rule):
     return all(values[key] in wanted for key, wanted in rule.items())
 
 
+def advice(text, error):
+    """What is meant by the line that the error of TOML names, or nothing."""
+    found = re.search(r"at line (\d+)", error)
+    lines = text.splitlines()
+    line = lines[int(found[1]) - 1] if found and int(found[1]) <= len(lines) else ""
+    if re.search("[\u201c\u201d\u201e\u2018\u2019\u00ab\u00bb]", line):
+        return f", in {line.strip()!r}; straight quotes: write \""
+    if "\u2212" in line or "\u2013" in line:
+        return f", in {line.strip()!r}; a minus sign from the keyboard: write -"
+    if re.search(r'"[^"]*\\', line):
+        return f", in {line.strip()!r}; a backslash in \"...\" begins an escape: write / in paths, or single quotes '...'"
+    if number := re.search(r"(\d+),(\d+)(?=\s*(;|#|$))", line):
+        return f", in {line.strip()!r}; a decimal point, not a comma: write {number[1]}.{number[2]}; between values a comma"
+    return ""
+
+
 class Reader:
     def __init__(self, path):
         self.path = path
@@ -149,7 +165,7 @@ class Reader:
         except OSError as error:
             self.fail(f"cannot be read: {error.strerror}")
         except tomllib.TOMLDecodeError as error:
-            self.fail(error)
+            self.fail(f"{error}{advice(self.path.read_text(encoding='utf-8-sig'), str(error))}")
         except UnicodeDecodeError:
             self.fail("not UTF-8")
 
@@ -162,7 +178,9 @@ class Reader:
             self.fail(f"key 'sweep.case': {found}: a case file, relative to this file")
         case = (self.path.parent / about["case"]).resolve()
         if not case.is_file():
-            self.fail(f"key 'sweep.case': {case} is not there")
+            escaped = re.search(r"[\x00-\x1f]", about["case"])
+            hint = "; a backslash in \"...\" begins an escape: write / in paths, or single quotes '...'" if escaped else ""
+            self.fail(f"key 'sweep.case': {str(case)!r} is not there{hint}")
         threads = about.get("threads", 1)
         if type(threads) is not int or not 1 <= threads <= MOST_THREADS:
             self.fail(f"key 'sweep.threads': value {threads!r}: allowed: a whole number, 1 to {MOST_THREADS}")

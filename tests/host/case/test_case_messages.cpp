@@ -144,6 +144,18 @@ TEST(CaseMessages, StringsAndCommentsMayHoldBracketsAndDots) {
   EXPECT_THAT(error_of(key + " = 1\n"), HasSubstr("case.toml:1: a key with more than 10000 dots"));
 }
 
+TEST(CaseMessages, BackslashesOfPathsAreTold) {
+  const auto with = [](const std::string& path) {
+    return error_of(replaced(tiny_case(), "name = \"tiny\"", "name = \"tiny\"\ndescription = " + path));
+  };
+  for (const char* path : {R"("C:\Users\mould.stl")", R"("..\mould.stl")", R"("C:\temp\x.stl")"})
+    EXPECT_THAT(with(path),
+                HasSubstr("a backslash in \"...\" begins an escape: write / in paths, or single quotes"))
+        << path;
+  EXPECT_EQ(with(R"('C:\Users\mould.stl')"), "accepted");
+  EXPECT_EQ(with(R"("C:\\Users\\mould.stl")"), "accepted");
+}
+
 TEST(CaseMessages, MeasuresAreLimited) {
   const auto with_volumes = [](int count) {
     std::string text = tiny_case();

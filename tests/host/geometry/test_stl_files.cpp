@@ -92,5 +92,14 @@ TEST(StlFiles, WhatIsWrongIsToldWithItsPlace) {
               AllOf(HasSubstr("no triangle has an area"), HasSubstr("the farthest corner is (1, 1e+25, 3)")));
 }
 
+TEST(StlFiles, EscapesInThePathAreTold) {
+  try {
+    read_stl("..\rinne.stl");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("cannot be read; a backslash in \"...\" begins an escape"));
+  }
+}
+
 }  // namespace
 }  // namespace slagflow
