@@ -211,7 +211,7 @@ const std::vector<Wrong> wrong_fluids{
     {2, "suspension = 'thomas'\ncritical_fraction = 0.6", {"case.toml:8", "critical_fraction': unknown"}},
     {2, "suspension = 'maron-pierce'\nexponent = 2", {"case.toml:8", "exponent': unknown"}},
     {3, "", {"case.toml:5: key 'fluid.slurry.liquid_density': missing"}},
-    {3, "liquid_density = 0", {"case.toml:8", "allowed: a number > 0.0 [kg/m^3]"}},
+    {3, "liquid_density = 0", {"case.toml:8", "allowed: a number >= 0.001"}},
     {3,
      "liquid_density = 965\ndensity = 965",
      {"case.toml:9: key 'fluid.slurry.density': does not go with the other keys: a suspension has "
