@@ -121,7 +121,7 @@ class Filler {
                                            "' has no particle: its shapes hold no lattice site " + plane() +
                                            "near the inside of the domain, or other walls have them" +
                                            unit_hint(c_, c_.walls[b].shapes)
-                                     : unit_warning(c_, c_.walls[b]);
+                                     : unit_warning(c_, c_.walls[b], solids_[b]);
       if (!told.empty()) result_.warnings.push_back(told);
     }
   }

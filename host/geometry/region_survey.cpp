@@ -186,18 +186,6 @@ bool far_from_fitting(const Case& c, const Extents& e) {
   return larger || size < speck * c.spacing;
 }
 
-template <class Suspect>
-std::string scale_of_suspects(const Case& c, const std::vector<ShapeSpec>& shapes, Suspect suspect) {
-  for (const ShapeSpec& shape : shapes) {
-    const auto* const stl = std::get_if<StlSpec>(&shape.form);
-    if (!stl) continue;
-    const Extents e = make_form({*stl, false})->extents();
-    const std::string told = suspect(e) ? fitting_scale(c, *stl, e) : "";
-    if (!told.empty()) return told;
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string reason_without_particle(const Case& c, const RegionSpec& region, const Solid& solid,
@@ -243,15 +231,28 @@ std::vector<std::string> cut_warnings(const Case& c, std::size_t index, const So
 }
 
 std::string unit_hint(const Case& c, const std::vector<ShapeSpec>& shapes) {
-  return scale_of_suspects(c, shapes,
-                           [&](const Extents& e) { return fit(c, e) <= small || far_from_fitting(c, e); });
+  for (const ShapeSpec& shape : shapes) {
+    const auto* const stl = std::get_if<StlSpec>(&shape.form);
+    if (!stl) continue;
+    const Extents e = make_form({*stl, false})->extents();
+    if (fit(c, e) > small && !far_from_fitting(c, e)) continue;
+    std::string told = fitting_scale(c, *stl, e);
+    if (!told.empty()) return told;
+  }
+  return "";
 }
 
-std::string unit_warning(const Case& c, const WallSpec& wall) {
-  const auto suspect = [&](const Extents& e) { return far_from_fitting(c, e); };
-  std::string told = scale_of_suspects(c, wall.shapes, suspect);
-  if (told.empty()) told = scale_of_suspects(c, wall.subtract, suspect);
-  return told.empty() ? told : "wall '" + wall.name + "' does not suit the domain" + told;
+std::string unit_warning(const Case& c, const WallSpec& wall, const Solid& solid) {
+  const std::vector<Extents> extents = solid.form_extents();
+  auto e = extents.begin();
+  for (const std::vector<ShapeSpec>* const shapes : {&wall.shapes, &wall.subtract})
+    for (const ShapeSpec& shape : *shapes) {
+      const Extents& here = *e++;
+      const auto* const stl = std::get_if<StlSpec>(&shape.form);
+      const std::string told = stl && far_from_fitting(c, here) ? fitting_scale(c, *stl, here) : "";
+      if (!told.empty()) return "wall '" + wall.name + "' does not suit the domain" + told;
+    }
+  return "";
 }
 
 }  // namespace slagflow

@@ -29,6 +29,6 @@ std::vector<std::string> cut_warnings(const Case& c, std::size_t index, const So
 std::string unit_hint(const Case& c, const std::vector<ShapeSpec>& shapes);
 
 // Of a wall that has particles, from a file that is far too large or small for the domain; or empty.
-std::string unit_warning(const Case& c, const WallSpec& wall);
+std::string unit_warning(const Case& c, const WallSpec& wall, const Solid& solid);
 
 }  // namespace slagflow

@@ -47,6 +47,15 @@ void check_background(const BuiltCase& built) {
                    show(most) + " [Pa], max_compression rho sound_speed^2");
 }
 
+void add_background(BuiltCase& built, Filling& filling, bool closed) {
+  double& background = built.resolved.numerics.background_pressure;
+  if (background < 0)
+    background = automatic_background(built.resolved, filling, closed);
+  else
+    check_background(built);
+  for (double& pressure : filling.fluid.pressure) pressure += background;
+}
+
 // What the simulation measures, by kind, in the order of the case.
 void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& setup) {
   const FrontSetup plane{measure.direction.axis, measure.direction.sign, measure.position};
@@ -83,12 +92,7 @@ BuiltCase build_setup(const Case& c) {
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
   const bool closed = !has_free_surface(c, filling);
   if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, closed);
-  double& background = built.resolved.numerics.background_pressure;
-  if (background < 0)
-    background = automatic_background(built.resolved, filling, closed);
-  else
-    check_background(built);
-  for (double& pressure : filling.fluid.pressure) pressure += background;
+  add_background(built, filling, closed);
   warn_of_settling(built.resolved, filling, built.warnings);
   warn_of_start(c, filling, built.warnings);
   warn_of_crushed_fluid(c, *filling.sites, built.warnings);

@@ -195,6 +195,13 @@ Extents Solid::extents() const {
   return all;
 }
 
+std::vector<Extents> Solid::form_extents() const {
+  std::vector<Extents> all;
+  for (const Shape& shape : shapes_) all.push_back(shape.form_extents());
+  for (const Shape& limit : limits_) all.push_back(limit.form_extents());
+  return all;
+}
+
 void Solid::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {
   const auto near = [&](double distance) { return distance <= 0 && distance >= -reach; };
   for (const Shape& shape : shapes_)

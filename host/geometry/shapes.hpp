@@ -58,6 +58,7 @@ class Shape {
   // For p inside: candidates within `reach` [m], and perhaps others, with normals out of the shape.
   void feet(Vec3d p, double reach, std::vector<Foot>& feet) const;
   Extents extents() const { return sign_ > 0 ? form_->extents() : Extents::endless(); }
+  Extents form_extents() const { return form_->extents(); }
   Shape complement() const { return Shape(form_, sign_ > 0); }
 
  private:
@@ -77,6 +78,8 @@ class Solid {
   bool contains(Vec3d p) const { return distance(p) < 0; }
   // Of the union, whatever is taken away.
   Extents extents() const;
+  // Of each form alone: those of the union, then those that are taken away.
+  std::vector<Extents> form_extents() const;
   // For p inside: candidates from every surface that may be within `reach` [m].
   void feet(Vec3d p, double reach, std::vector<Foot>& feet) const;
 
