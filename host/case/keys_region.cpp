@@ -42,7 +42,7 @@ void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
           "particles start evenly spread within this distance of their lattice site along each axis, the "
           "same in every run. They settle, and the fluid loses 0.6 jitter², up to 0.12 jitter, of its "
           "density "
-          "(lucy: 0.25 jitter²; with shifting = 1 0.4 of that): a closed space as much of ρc₀² in pressure, "
+          "(lucy: 0.4 jitter²; with shifting = 1 0.4 of that): a closed space as much of ρc₀² in pressure, "
           "with a warning; under a free surface it sinks by that share"),
       region.jitter, between(0, 0.5, "spacings"));
 }

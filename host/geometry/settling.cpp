@@ -68,7 +68,7 @@ double automatic_background(const Case& resolved, const Filling& filling, bool c
 
 double settling_loss(const NumericsSetup& numerics, double jitter) {
   const double shifted = 1 - 0.6 * smaller(1.0, 2.5 * larger(numerics.shifting, 0.0));
-  if (numerics.kernel == SmoothingKind::lucy) return 0.25 * jitter * jitter * shifted;
+  if (numerics.kernel == SmoothingKind::lucy) return 0.4 * jitter * jitter * shifted;
   return smaller(0.6 * jitter * jitter * shifted, 0.12 * jitter);
 }
 

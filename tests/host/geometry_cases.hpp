@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdint>
@@ -94,7 +95,7 @@ inline std::string ascii_stl(const std::vector<Triangle>& triangles) {
 }
 
 inline std::string write_temp_file(const std::string& name, const std::string& bytes) {
-  std::string path = testing::TempDir() + name;
+  std::string path = testing::TempDir() + std::to_string(getpid()) + "_" + name;
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }

@@ -69,6 +69,7 @@ TEST(SavedState, IsTheSameAfterItWasRestored) {
 // Two threads put the rows of neighbour lists, and the yield stresses of pairs with them, wherever there is
 // room at the moment.
 TEST(SavedState, AndWhatFollowsAreTheSameWithTwoThreads) {
+  if (device_info().backend == "cuda") GTEST_SKIP() << "threads are of the CPU build";
   const int before = device_info().threads;
   set_threads(1);
   Simulation alone(exact());
