@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -95,7 +96,9 @@ inline std::string ascii_stl(const std::vector<Triangle>& triangles) {
 }
 
 inline std::string write_temp_file(const std::string& name, const std::string& bytes) {
-  std::string path = testing::TempDir() + std::to_string(getpid()) + "_" + name;
+  const std::string folder = testing::TempDir() + "slagflow_" + std::to_string(getpid());
+  std::filesystem::create_directories(folder);  // tests run beside each other
+  std::string path = folder + "/" + name;
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
 }
