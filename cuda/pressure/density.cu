@@ -91,7 +91,7 @@ struct DensityAndShear {
       const Lanes approach = dot(slip, d);
       sums.approach += weight * approach;
       if (centre.in_tension > 0) {
-        sums.apart += volume * c.flow.smoothing.tension_gradient(r2) * approach - weight * approach;
+        sums.apart += in_tension(centre, volume, weight, r2) * approach;
         sums.around -= weight * other.w, sums.sizes -= weight * magnitude(other.w);
       }
       const Lanes smooth = (Real(0.5) * inverse_stiffness * c.flow.inverse_gradient_sum) *
@@ -114,6 +114,12 @@ struct DensityAndShear {
     if (!c.flow.flat_tension || above_rest >= 0) return 0;
     const Quad state = c.fluid.state[i];
     return tension_share(c.flow, state.w / state.z, state.y);
+  }
+
+  // What the function for tension has beyond the weight by F.
+  HOST_DEVICE Lanes in_tension(const Centre& centre, Lanes volume, Lanes weight, Lanes r2) const {
+    if (!(centre.in_tension > 0)) return 0;
+    return volume * c.flow.smoothing.tension_gradient(r2) - weight;
   }
 
   // Of a particle below zero the share of the function for tension, as far as the fluid around it is below
@@ -164,9 +170,7 @@ struct DensityAndShear {
                   weight = volume * c.flow.smoothing.gradient(r2);
       if (centre.hollow > 0) sums.fill += volume * c.flow.smoothing.value(r2);
       const Lanes closer = dot(change, d);
-      sums.squeeze += weight * closer;
-      if (centre.in_tension > 0)
-        sums.torn += volume * c.flow.smoothing.tension_gradient(r2) * closer - weight * closer;
+      sums.squeeze += weight * closer, sums.torn += in_tension(centre, volume, weight, r2) * closer;
       // A wall particle at the cut-off, as above the surface, has no hydrostatic density to diffuse towards.
       const Lanes pressure = gather(c.wall.pressure, j);
       const Lanes difference = pressure * inverse_stiffness - centre.excess + slope * dot(falls, d);

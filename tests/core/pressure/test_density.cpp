@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene.hpp"
+#include "reference_contact.hpp"
 
 namespace slagflow {
 namespace {
