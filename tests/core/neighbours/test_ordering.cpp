@@ -59,13 +59,14 @@ class OrderingOf : public testing::Test {
 
   template <class T>
   static T mark_of(const std::string& name, Index id) {
-    const auto mark = static_cast<Real>(id + 1000 * static_cast<Index>(name.size()));
+    const auto whole = id + 1000 * static_cast<Index>(name.size());
+    const auto mark = static_cast<Real>(whole);
     if constexpr (std::is_same_v<T, Quad>)
       return Quad{mark, mark + 1, mark + 2, mark + 3};
     else if constexpr (std::is_same_v<T, Vec3d>)
       return Vec3d{mark, mark + 1, mark + 2};
     else
-      return static_cast<T>(mark);
+      return static_cast<T>(whole);
   }
 
   template <class T>
