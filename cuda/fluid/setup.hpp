@@ -143,7 +143,7 @@ constexpr double runaway_mach = 3;
 struct LimitSetup {
   int interval = 10;                  // steps between looks
   double max_speed = 0;               // [m/s], 0: runaway_mach times the sound speed
-  double max_compression = 0.3;       // (rho - rho0)/rho0; an impact at a fifth of the sound speed has 0.25
+  double max_compression = 0.3;       // (rho - rho0)/rho0; a flat blow at a tenth of the sound speed has 0.22
   double max_lost_fraction = 1;       // of the particles, through all faces of the domain
   double min_time_step_ratio = 1e-3;  // of the acoustic time step
   double max_energy_growth = 0.05;    // of kinetic and dissipated energy and the weight of one spacing

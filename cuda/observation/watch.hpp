@@ -25,11 +25,15 @@ class Watch {
   // Throws Error that names the limit, its value, the particle concerned with its state, and what to try.
   void look(const FluidArrays&, Span<const FluidConstants>, const WatchMoment&, DiagnosticScratch&);
 
-  // Lowest total energy seen so far, and what had been given at the last look [J]; kept in checkpoints.
-  double lowest_energy = 1e300, given_before = 0;
+  // What it remembers from look to look [J]; kept in checkpoints.
+  struct Seen {
+    double lowest_energy = 1e300;  // the total less what was given
+    double given = 0;
+    double recent_energy = 0;  // highest total, what was given included, that is half forgotten in five looks
+  } seen;
   template <class Visitor>
   void save(Visitor& v) {
-    v.number(lowest_energy), v.number(given_before);
+    v.number(seen.lowest_energy), v.number(seen.given), v.number(seen.recent_energy);
   }
 
  private:

@@ -249,9 +249,9 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 // What the watch remembers stays as it is: a look out of turn must not change what it finds later.
 void Simulation::require_sound() {
   State& s = *state_;
-  const double lowest = s.watch.lowest_energy, given = s.watch.given_before;
+  const Watch::Seen before = s.watch.seen;
   s.look();
-  s.watch.lowest_energy = lowest, s.watch.given_before = given;
+  s.watch.seen = before;
 }
 
 double Simulation::time() const { return state_->time; }

@@ -8,10 +8,11 @@ void describe(CaseVisitor& v, LimitSetup& l) {
   v.integer(key("interval", "steps between looks"), l.interval, {1, 1000});
   v.number(key("max_speed", "auto: three times the sound speed").or_word("auto", 0), l.max_speed,
            above(0, "m/s"));
-  v.number(key("max_compression",
-               "(ρ − ρ₀)/ρ₀ of any step. An impact at a fifth of the sound speed has 0.25; the message tells "
-               "the sound_speed to take"),
-           l.max_compression, above_to(0, 1, ""));
+  v.number(
+      key("max_compression",
+          "(ρ − ρ₀)/ρ₀ of any step. A flat blow at a tenth of the sound speed has 0.22; the message tells "
+          "the sound_speed to take"),
+      l.max_compression, above_to(0, 1, ""));
   v.number(key("max_lost_fraction", "of the particles, through all faces of the domain"), l.max_lost_fraction,
            between(0, 1, ""));
   v.number(key("min_time_step_ratio", "of the time step by equation (13)"), l.min_time_step_ratio,

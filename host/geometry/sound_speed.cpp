@@ -97,7 +97,7 @@ std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& fill
   double start = 0;
   for (const Vec3d& v : filling.fluid.velocity) start = std::max(start, norm(v));
   return {{"depth", 11, std::sqrt(2 * depth), "sqrt(2 g H), H " + rounded(g > 0 ? depth / g : 0) + " m"},
-          {"impact", 5, impact_speed(c, *filling.sites, filling.fluid, bodies),
+          {"impact", 10, impact_speed(c, *filling.sites, filling.fluid, bodies),
            "on a wall or fluid that it falls on"},
           {"walls", 10,
            std::max(largest(motion_speeds(c, filling.walls)), largest(surface_speeds(c, filling.walls))),

@@ -54,7 +54,7 @@ TEST(SoundSpeed, FluidThatFallsOnAFloorAsksForFiveTimesItsSpeed) {
   expect_fall(term(c, "impact"), 50);
   const BuiltCase built = build_setup(c);
   EXPECT_EQ(ruling(built.sound_speed_terms).name, "impact");
-  EXPECT_DOUBLE_EQ(built.setup.numerics.sound_speed, 5 * term(c, "impact"));
+  EXPECT_DOUBLE_EQ(built.setup.numerics.sound_speed, 10 * term(c, "impact"));
 }
 
 TEST(SoundSpeed, FluidThatFallsOnOtherFluidToo) {
@@ -205,8 +205,8 @@ TEST(SoundSpeed, CheckPrintsEachTermWhichRulesAndWhatItCosts) {
               testing::ContainsRegex("by depth +69.57 m/s = 11 x 6.325 m/s, sqrt\\(2 g H\\), H 2 m: time "
                                      "step 0.0149 s, 67 steps\n"));
   EXPECT_THAT(text,
-              testing::ContainsRegex("by impact +15[89]\\..* m/s = 5 x 31\\..*, on a wall or fluid that it "
-                                     "falls on: time step .* steps, 2.2[78] times those by depth; auto "
+              testing::ContainsRegex("by impact +31[67]\\..* m/s = 10 x 31\\..*, on a wall or fluid that it "
+                                     "falls on: time step .* steps, 4.5[45] times those by depth; auto "
                                      "takes it\n"));
   c.numerics.sound_speed = 69.57;
   EXPECT_THAT(to_text(check_case(build_setup(c))),
