@@ -71,11 +71,13 @@ struct World {
   std::vector<Fluid> fluids;
   std::vector<Particle> particles;
   std::vector<Wall> walls;
-  double way = 0;           // [s] that fluid moves with its velocities: viscous forces act half-way along
+  double way = 0;           // [s] that fluid moves with its velocities
   bool walls_move = false;  // else what they have moved is that of their surfaces
 
   Vec moved(const Wall& wall, double dt) const { return walls_move ? wall.moved : dt * wall.v; }
-  // The direction of the viscous force of two particles at x_ij = d.
+  // x_ij.u_ij + turn v_ij^2 of the implicit share theta is nought where a chord of the way keeps |x_ij|.
+  double turn(double theta) const { return way / 2 * (2 * theta - 1) / theta; }
+  // x_ij half-way.
   Vec half_way(const Particle& p, const Particle& other, Vec d) const {
     return d + way / 2 * (p.v - other.v);
   }

@@ -66,29 +66,46 @@ struct ViscousOperator {
   std::vector<double> from_walls;
 };
 
+inline double pair_weight(const World& w, double eta, double volumes, Vec d) {
+  return w.correction * 2 * (w.dimensions + 2) * eta * volumes * viscous_weight(w, length(d));
+}
+inline double mean_viscosity(const Particle& p, const Particle& o) {
+  return p.fluid == o.fluid ? (p.viscosity + o.viscosity) / 2 : 2 / (1 / p.viscosity + 1 / o.viscosity);
+}
+
+// What distances kept along the chords of a way add to K u: sum w_ij x_ij turn |v_ij|^2.
+inline std::vector<double> along_chords(const World& w, double turn) {
+  std::vector<Vec> sum(w.particles.size());
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    for (std::size_t j = 0; j < sum.size(); ++j) {
+      if (i == j) continue;
+      const Particle &p = w.particles[i], &o = w.particles[j];
+      const Vec slip = p.v - o.v;
+      for_images(w, p.x, o.x, w.support, [&](Vec d) {
+        sum[i] = sum[i] +
+                 (pair_weight(w, mean_viscosity(p, o), p.volume * o.volume, d) * turn * dot(slip, slip)) * d;
+      });
+    }
+  return flatten(sum);
+}
+
 inline ViscousOperator viscous_operator(const World& w) {
   const std::size_t n = w.particles.size();
   ViscousOperator result{Dense(3 * n), std::vector<double>(3 * n)};
-  auto weight = [&](double eta, double volumes, Vec d) {
-    return w.correction * 2 * (w.dimensions + 2) * eta * volumes * viscous_weight(w, length(d));
-  };
   for (std::size_t i = 0; i < n; ++i) {
     const Particle& p = w.particles[i];
     for (std::size_t j = 0; j < n; ++j) {
       const Particle& o = w.particles[j];
       if (i == j) continue;
       for_images(w, p.x, o.x, w.support, [&](Vec d) {
-        const double mean =
-            p.fluid == o.fluid ? (p.viscosity + o.viscosity) / 2 : 2 / (1 / p.viscosity + 1 / o.viscosity);
-        const double s = weight(mean, p.volume * o.volume, d);
-        const Vec along = w.half_way(p, o, d);
-        add_block(result.matrix, i, i, s, along);
-        add_block(result.matrix, i, j, -s, along);
+        const double s = pair_weight(w, mean_viscosity(p, o), p.volume * o.volume, d);
+        add_block(result.matrix, i, i, s, d);
+        add_block(result.matrix, i, j, -s, d);
       });
     }
     for_wall_pairs(w, i, [&](const Wall& o, Vec d) {
       if (!o.sticks) return;
-      const double s = no_slip_factor(w, o, d) * weight(p.viscosity, p.volume * w.wall_volume(), d);
+      const double s = no_slip_factor(w, o, d) * pair_weight(w, p.viscosity, p.volume * w.wall_volume(), d);
       add_block(result.matrix, i, i, s, d);
       const Vec drag = s * dot(d, o.v) * d;
       result.from_walls[3 * i] += drag.x, result.from_walls[3 * i + 1] += drag.y,
@@ -111,12 +128,13 @@ inline ViscousSystem viscous_system(const World& w, const std::vector<Vec>& pred
   std::vector<Vec> old;
   for (const Particle& p : w.particles) old.push_back(p.v);
   const std::vector<double> explicit_part = multiply(k.matrix, flatten(old));
+  const std::vector<double> chords = along_chords(w, w.turn(theta));
   for (std::size_t i = 0; i < s.matrix.size; ++i) {
     const double mass = w.particles[i / 3].mass;
     for (std::size_t j = 0; j < s.matrix.size; ++j) s.matrix(i, j) = theta * dt * k.matrix(i, j);
     s.matrix(i, i) += mass;
-    s.right_hand_side[i] =
-        mass * s.right_hand_side[i] + dt * k.from_walls[i] - (1 - theta) * dt * explicit_part[i];
+    s.right_hand_side[i] = mass * s.right_hand_side[i] + dt * k.from_walls[i] -
+                           (1 - theta) * dt * explicit_part[i] - theta * dt * chords[i];
   }
   return s;
 }

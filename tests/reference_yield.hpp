@@ -10,11 +10,11 @@
 
 namespace reference {
 
-// A row of B and its constant: dt V_i g x.(u_i - u_j), or dt V_i g x.(u_i - u_wall).
+// A row of B and its constant: dt V_i g [x.(u_i - u_j) + turn v_ij^2], or dt V_i g x.(u_i - u_wall).
 struct StrainRow {
   std::size_t i, j;        // j == i: a wall
   Vec g;                   // [1/m]
-  double offset;           // g . u_wall
+  double offset;           // -g turn v_ij^2, or g . u_wall
   std::size_t slip = 0;    // where y is in u; 0: the pair has none
   double slip_weight = 0;  // [1/m^2] of y
 };
@@ -22,7 +22,7 @@ struct StrainRow {
 inline double times(const StrainRow& r, const std::vector<double>& u) {
   auto at = [&](std::size_t k) { return Vec{u[3 * k], u[3 * k + 1], u[3 * k + 2]}; };
   if (r.i == r.j) return dot(r.g, at(r.i)) - r.offset;
-  return dot(r.g, at(r.i) - at(r.j)) + (r.slip > 0 ? r.slip_weight * u[r.slip] : 0);
+  return dot(r.g, at(r.i) - at(r.j)) - r.offset + (r.slip > 0 ? r.slip_weight * u[r.slip] : 0);
 }
 
 // The numbers of the unknowns y, by the pair and the number of its image.
@@ -65,7 +65,8 @@ inline std::vector<StrainRow> strain_rows(const World& w, const Slips& slips, st
       for_images(w, w.particles[i].x, w.particles[j].x, w.support, [&](Vec d) {
         const double g = root(d, w.particles[j].volume);
         const auto [at, sign] = slips.of(i, j, d);
-        rows.push_back({i, j, g * w.half_way(w.particles[i], w.particles[j], d), 0, at, sign * g});
+        const Vec slip = w.particles[i].v - w.particles[j].v;
+        rows.push_back({i, j, g * d, -g * w.turn(1) * dot(slip, slip), at, sign * g});
       });
   for_wall_pairs(w, i, [&](const Wall& wall, Vec d) {
     if (!wall.sticks) return;
@@ -147,8 +148,11 @@ class YieldOracle {
         const double c[3] = {along.x, along.y, along.z};
         for (std::size_t k = 0; k < 3; ++k)
           terms.push_back({3 * r.i + k, c[k]}), terms.push_back({3 * r.j + k, -c[k]});
-        for (const auto& [p, a] : terms)
+        const double offset = (own - other) / (own + other) * r.offset;
+        for (const auto& [p, a] : terms) {
           for (const auto& [q, b] : terms) system_.matrix(p, q) += weight * a * b;
+          system_.right_hand_side[p] += weight * a * offset;
+        }
       }
   }
 

@@ -72,7 +72,6 @@ struct WallArrays : ParticleArrays {
 struct FluidView {
   Index count = 0;
   Span<const Quad> place, motion, by_pressure, state;
-  Span<const Quad> middle;  // xyz: [m] whose differences are the directions of viscous forces (viscous.hpp)
   Span<const Real> pressure, contact, hollow;
   Span<const std::uint8_t> fluid;
 };
@@ -85,8 +84,8 @@ struct WallView {
 };
 
 inline FluidView view(const FluidArrays& f) {
-  return {f.count,        f.place.span(),    f.motion.span(),  f.by_pressure.span(), f.state.span(),
-          f.place.span(), f.pressure.span(), f.contact.span(), f.hollow.span(),      f.fluid.span()};
+  return {f.count,           f.place.span(),   f.motion.span(), f.by_pressure.span(), f.state.span(),
+          f.pressure.span(), f.contact.span(), f.hollow.span(), f.fluid.span()};
 }
 
 inline WallView view(const WallArrays& w) {

@@ -96,8 +96,9 @@ void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   const double growth = (sure_energy - seen.lowest_energy) / scale;
   if (growth > setup_.limits.max_energy_growth)
     fail(now,
-         "the energy grew by " + number(sure_energy - seen.lowest_energy) + " J without a source, a share of " +
-             number(growth) + "; limits.max_energy_growth is " + number(setup_.limits.max_energy_growth),
+         "the energy grew by " + number(sure_energy - seen.lowest_energy) +
+             " J without a source, a share of " + number(growth) + "; limits.max_energy_growth is " +
+             number(setup_.limits.max_energy_growth),
          "a smaller courant");
   check_dissipated(now, scale);
   check_given(vitals, now, scale);

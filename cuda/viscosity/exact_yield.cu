@@ -32,7 +32,7 @@ struct PairLoop {
   // visit(at, j, V_j, direction of the viscous force, root)
   template <class Visit>
   HOST_DEVICE void over_fluid(Index i, Visit visit) const {
-    const LaneVec3 x = in_lanes(xyz(c.fluid.place[i])), middle = in_lanes(xyz(c.fluid.middle[i]));
+    const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
     const Offset first = c.fluid_list.row(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
@@ -43,8 +43,7 @@ struct PairLoop {
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
       const Lanes weight = c.flow.shear_factor * c.flow.smoothing.viscous(r2);
-      visit(at, j, there.w, box.separation(middle, xyz(gather(c.fluid.middle, j))),
-            select(near, root(weight), Lanes(0)));
+      visit(at, j, there.w, d, select(near, root(weight), Lanes(0)));
     }
   }
 
@@ -148,6 +147,7 @@ struct Update {
   Velocities velocity;
   Span<const Real> held, augmentation;
   Span<Real> own, other, wall, new_held;
+  Chords chords;
   Real scale;  // a velocity for a stress [m/(s Pa)]
   Span<double> gap, shear, rounding, stress;
 
@@ -158,6 +158,11 @@ struct Update {
 
   HOST_DEVICE Real sheared(Index i, Real f) const {
     return augmentation[i] > 0 ? (1 - f) / augmentation[i] : Real(0);
+  }
+
+  HOST_DEVICE Lanes along_chord(Index i, const Index* j) const {
+    if (!(chords.turn > 0)) return 0;
+    return chords.added(in_lanes(xyz(chords.velocity[i])) - xyz(gather(chords.velocity, j)));
   }
 
   HOST_DEVICE RowSums<Lanes> fluid_row(Index i) const {
@@ -173,7 +178,7 @@ struct Update {
       const LaneMask near = g > Lanes(0);
       const Lanes old = select(near, load_lanes(&own[at]), Lanes(0));
       const Lanes their_old = select(near, load_lanes(&other[at]), Lanes(0));
-      const Lanes rate = g * (dot(before, d) + dot(added, d)), root_their = root(their);
+      const Lanes rate = g * ((dot(before, d) + dot(added, d)) + along_chord(i, j)), root_their = root(their);
       // As entries of either row: the stress of one half is that of the other after the slip.
       const Lanes ratio = root_their / root_volume, own_stress = share * old,
                   their_stress = (Real(2) * their_held - Real(1)) * their_old;
@@ -286,7 +291,7 @@ void ExactYield::measure_stress(const PairContext& c, Span<const Real> shear_rat
 }
 
 ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> predicted,
-                                      Span<const Quad> increment) {
+                                      Span<const Quad> increment, const Chords& chords) {
   // Of many terms the roundings cancel for the most part.
   constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
   const Index n = c.fluid.count;
@@ -301,6 +306,7 @@ ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> pre
                                       other_.span(),
                                       wall_.span(),
                                       spare_held_.span(),
+                                      chords,
                                       c.flow.spacing / unit_,
                                       gap_.span(),
                                       shear_.span(),

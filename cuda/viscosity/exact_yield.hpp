@@ -17,6 +17,7 @@
 #pragma once
 
 #include "neighbours/pairs.hpp"
+#include "viscosity/linear_system.hpp"
 
 namespace slagflow {
 
@@ -66,7 +67,7 @@ class ExactYield {
   struct Misfit {
     double gap = 0, shear = 0, rounding = 0, stress = 0;  // [m/s]
   };
-  Misfit update(const PairContext&, Span<const Quad> predicted, Span<const Quad> increment);
+  Misfit update(const PairContext&, Span<const Quad> predicted, Span<const Quad> increment, const Chords&);
 
   // |tau| [Pa] of each particle: f |p| and that of the viscous part at these shear rates.
   void measure_stress(const PairContext&, Span<const Real> shear_rate, Span<Real> result);

@@ -12,11 +12,20 @@
 
 namespace slagflow {
 
+// What turns as a rigid body moves along chords x' = x + u dt, which keep |x_ij| where x_ij.u_ij + dt
+// u_ij^2/2 is nought. In the second term the velocities of the last step serve: a plug left them rigid.
+// Forces along x_ij keep the angular momentum.
+struct Chords {
+  Span<const Quad> velocity;  // xyz: of the last step [m/s]
+  Real turn = 0;              // [s] half of the way, of the share that is implicit
+  HOST_DEVICE Lanes added(LaneVec3 slip) const { return turn * dot(slip, slip); }
+};
+
 struct LinearSystem {
   Index size = 0;
   ListView links;                    // the particles that row i may be linked to
   Span<const Real> weight;           // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
-  Span<const Quad> middle;           // xyz: [m] whose differences are d_ij
+  Span<const Quad> place;            // xyz: [m] whose differences are d_ij
   Span<const Quad> diagonal;         // xyz: diagonal of A [kg], w: mass [kg]
   Span<const Symmetric3> wall;       // B_i [kg]
   Span<const Quad> right_hand_side;  // [kg m/s]
@@ -32,14 +41,14 @@ struct LinearSystem {
   // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
   template <class Box, class Visit>
   HOST_DEVICE void for_links(const Box& space, Index i, Visit visit) const {
-    const LaneVec3 centre = in_lanes(xyz(middle[i]));
+    const LaneVec3 centre = in_lanes(xyz(place[i]));
     const Offset first = links.row(i);
     const Index n = links.length[i];
     for (Index k = 0; k < n; k += lane_count) {
       const Offset at = first + k * ListView::stride();
       const Lanes w = load_lanes(&weight[at]);
       const Index* j = &links.entry[at];
-      visit(j, w, space.separation(centre, xyz(gather(middle, j))));
+      visit(j, w, space.separation(centre, xyz(gather(place, j))));
     }
   }
 
@@ -56,16 +65,32 @@ struct LinearSystem {
     return on_diagonal(i, here) + total(sum);
   }
 
-  // (A u)_i and (A v)_i in one pass over the links.
+  // sum_j w_ij d_ij turn v_ij^2, which distances kept along chords add to A u: d_ij.u_ij + turn v_ij^2 in
+  // place of d_ij.u_ij, v the velocities of the last step and 2 turn the way [s].
+  HOST_DEVICE Vec3 along_chords(Index i, const Chords& chords) const {
+    if (!(chords.turn > 0)) return {};
+    const LaneVec3 centre = in_lanes(xyz(chords.velocity[i]));
+    LaneVec3 sum;
+    in_box([&](const auto& space) {
+      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+        sum += (w * chords.added(centre - xyz(gather(chords.velocity, j)))) * d;
+      });
+    });
+    return total(sum);
+  }
+
+  // (A u)_i and (A v)_i in one pass over the links, what chords add to u included.
   struct Two {
     Vec3 u, v;
   };
-  HOST_DEVICE Two apply(Index i, Span<const Quad> u, Span<const Quad> v) const {
+  HOST_DEVICE Two apply(Index i, Span<const Quad> u, Span<const Quad> v, const Chords& chords) const {
+    const LaneVec3 last = in_lanes(xyz(chords.velocity[i]));
     const LaneVec3 here_u = in_lanes(xyz(u[i])), here_v = in_lanes(xyz(v[i]));
     LaneVec3 sum_u, sum_v;
     in_box([&](const auto& space) {
       for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
         sum_u += couple(coupling, w, d, here_u - xyz(gather(u, j)));
+        if (chords.turn > 0) sum_u += (w * chords.added(last - xyz(gather(chords.velocity, j)))) * d;
         sum_v += couple(coupling, w, d, here_v - xyz(gather(v, j)));
       });
     });

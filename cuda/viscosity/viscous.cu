@@ -16,9 +16,10 @@ struct StartFromPredicted {
   static constexpr int terms = 5;
   LinearSystem system;
   Span<const Quad> predicted, increment;
+  Chords chords;
   Span<Quad> right_hand_side, residual;
   HOST_DEVICE Terms<5> operator()(Index i) const {
-    const LinearSystem::Two product = system.apply(i, predicted, increment);
+    const LinearSystem::Two product = system.apply(i, predicted, increment, chords);
     const Vec3d force = to_double(xyz(right_hand_side[i]));
     const Vec3 b = xyz(right_hand_side[i]) - product.u, r = b - product.v;
     right_hand_side[i] = quad(b, 0);
@@ -52,15 +53,6 @@ struct Declare {
   HOST_DEVICE void operator()(Index) const { state->converged = solved ? 1 : 0, state->running = 0; }
 };
 
-struct Middle {
-  Span<const Quad> place, motion;
-  Real half_way;  // [s]
-  Span<Quad> middle;
-  HOST_DEVICE void operator()(Index i) const {
-    middle[i] = quad(xyz(place[i]) + half_way * xyz(motion[i]), 0);
-  }
-};
-
 struct AddIncrement {
   Span<const Quad> predicted, increment;
   Span<Quad> velocity;
@@ -88,7 +80,7 @@ struct StepEnergy {
   HOST_DEVICE Terms<2> operator()(Index i) const {
     const Vec3d delta = to_double(xyz(increment[i])), u = to_double(xyz(velocity[i]));
     const Vec3d mean = 0.5 * (to_double(xyz(before[i])) + u);
-    return {{-static_cast<double>(state[i].w) * dot(delta, u), dot(to_double(xyz(given[i])), mean)}};
+    return {{-static_cast<double>(state[i].w) * dot(delta, mean), dot(to_double(xyz(given[i])), mean)}};
   }
 };
 
@@ -138,7 +130,6 @@ struct AddAndGuess {
 ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
     : context_(c),
       numerics_(numerics),
-      middle_(c, "middles of the ways"),
       given_(c, "impulses of pairing and walls"),
       base_(c, "base of the right hand side"),
       predicted_(c, "predicted velocities"),
@@ -153,7 +144,7 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
 
 void ViscousStep::reserve(Index count, Offset pair_capacity, const RowCells& rows) {
   constexpr Offset margin_percent = 1;
-  middle_.resize(count), predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count);
+  predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count);
   given_.resize(count), right_hand_side_.resize(count), wall_.resize(count),
       weight_.resize(pair_capacity, margin_percent);
   work_.resize(count);
@@ -161,7 +152,7 @@ void ViscousStep::reserve(Index count, Offset pair_capacity, const RowCells& row
 }
 
 LinearSystem ViscousStep::system(const PairContext& c) const {
-  return {c.fluid.count,    c.fluid_list, weight_.span(),          c.fluid.middle,
+  return {c.fluid.count,    c.fluid_list, weight_.span(),          c.fluid.place,
           diagonal_.span(), wall_.span(), right_hand_side_.span(), c.box,
           c.flow.coupling};
 }
@@ -177,7 +168,6 @@ void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const St
                         FluidArrays& fluid) {
   const Index n = fluid.count;
   constexpr double largest_factor = 1.5;  // of the augmentations, between steps
-  find_middle(step, fluid);
   if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step, largest_factor));
   const PairContext c = as_solved(whole);
   const auto theta = static_cast<Real>(assembled_share());
@@ -195,14 +185,15 @@ void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const St
   } else if (exact_yield_stress()) {
     launch(context_, "not solved", 1, Declare{work_.state(), false});
   } else {
-    begin_solve(matrix, rows, step, fluid.increment);
+    begin_solve(matrix, rows, step, fluid);
   }
   launch(context_, "add increment", n, if_converged(work_.state(), end_solve(fluid)));
 }
 
-void ViscousStep::find_middle(const Step& step, const FluidArrays& fluid) {
-  launch(context_, "middles of the ways", fluid.count,
-         Middle{fluid.place.span(), fluid.motion.span(), static_cast<Real>(0.5 * step.way), middle_.span()});
+Chords ViscousStep::chords(const Step& step, const FluidArrays& fluid) const {
+  const bool radial = numerics_.viscous_operator == ViscousOperator::radial;
+  const double share = (2 * numerics_.theta - 1) / numerics_.theta;  // an explicit part sees the other half
+  return {fluid.motion.span(), radial ? static_cast<Real>(0.5 * step.way * share) : Real(0)};
 }
 
 void ViscousStep::assemble(const PairContext& c, const Step& step, FluidArrays& fluid) {
@@ -264,7 +255,6 @@ Span<const Quad> ViscousStep::explicit_velocity(const FluidArrays& fluid) const 
 
 PairContext ViscousStep::as_solved(const PairContext& c) const {
   PairContext solved = exact_yield_stress() ? yield_.augmented(c) : c;
-  solved.fluid.middle = middle_.span();
   return solved;
 }
 
@@ -285,12 +275,13 @@ int ViscousStep::most_by_diagonal(int patience) const {
 
 // The diagonal alone serves while a few iterations are enough: the coarse levels cost as much as some ten.
 void ViscousStep::begin_solve(const LinearSystem& matrix, const RowCells& rows, const Step& step,
-                              Buffer<Quad>& increment) {
+                              FluidArrays& fluid) {
   constexpr int patience = 4;
+  Buffer<Quad>& increment = fluid.increment;
   const int most = most_by_diagonal(patience);
   const double wanted = wanted_residual(step, matrix.size);
   launch_reduction<AddUp>(context_, "start", matrix.size,
-                          StartFromPredicted{matrix, predicted_.span(), increment.span(),
+                          StartFromPredicted{matrix, predicted_.span(), increment.span(), chords(step, fluid),
                                              right_hand_side_.span(), work_.residual.span()},
                           BeginSolve{work_.state(), wanted, most});
   if (most <= 0) return;

@@ -2,9 +2,8 @@
 //   m u_i + theta dt K u = m u*_i - (1 - theta) dt K v,  K the pair operator (predictor.hpp), v the old
 //   velocity
 // or, as the paper prints it, u*
-// The weights of K are those of the particles' distances at the start of the step, its directions those
-// half-way along it, x + v dt/2: what turns as a rigid body moves along chords, which are at right angles to
-// them.
+// Weights and directions of K are those of the start of the step; what turns as a rigid body is not held back
+// (Chords in linear_system.hpp).
 #pragma once
 
 #include "fluid/setup.hpp"
@@ -46,8 +45,8 @@ class ViscousStep {
   SolveResult finish(const StepRecord& now, const PairContext&, const RowCells&, const Step&, FluidArrays&);
   StepRecord* record() { return work_.record.span().data; }
   // Leaves in the record what the viscous forces of the step take from the fluid as it moves by u dt,
-  // -sum m (u - u*).u, which is what they dissipate less the work of moving walls, and what pairing and walls
-  // give it [J]. Before the particles move.
+  // -sum m (u - u*).(u + v)/2, which is what they dissipate less the work of moving walls, and what pairing
+  // and walls give it [J]. Before the particles move.
   void launch_energy(const FluidArrays&);
 
   // Sets the first guess to nothing.
@@ -76,10 +75,10 @@ class ViscousStep {
   double assembled_share() const { return is_explicit() ? 1 : numerics_.theta; }
   LinearSystem system(const PairContext&) const;
   double wanted_residual(const Step&, Index count) const;
-  void find_middle(const Step&, const FluidArrays&);
+  Chords chords(const Step&, const FluidArrays&) const;
   void assemble(const PairContext&, const Step&, FluidArrays&);
   int most_by_diagonal(int patience) const;
-  void begin_solve(const LinearSystem&, const RowCells&, const Step&, Buffer<Quad>& increment);
+  void begin_solve(const LinearSystem&, const RowCells&, const Step&, FluidArrays&);
   SolveResult go_on(const LinearSystem&, const RowCells&, const SolveState& now, double energy,
                     Buffer<Quad>& increment);
   SolveResult by_multigrid(const LinearSystem&, const RowCells&, const SolveLimits&, const SolveState& begun,
@@ -97,14 +96,14 @@ class ViscousStep {
     int iterations = 0;
     bool rates_agree = false, settled = false;
   };
-  void start_exact(const LinearSystem&);
+  void start_exact(const LinearSystem&, const Chords&);
   SolveState start_inner(const LinearSystem&, const PairContext&, const Step&, const ExactProgress&,
                          Buffer<Quad>& increment);
   void judge(const ExactYield::Misfit&, double speed, ExactProgress&) const;
 
   Context& context_;
   NumericsSetup numerics_;
-  Buffer<Quad> middle_, given_, base_, predicted_, velocity_, diagonal_, right_hand_side_;
+  Buffer<Quad> given_, base_, predicted_, velocity_, diagonal_, right_hand_side_;
   Buffer<Symmetric3> wall_;
   Buffer<Real> weight_;
   SolverWorkspace work_;

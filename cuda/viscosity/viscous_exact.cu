@@ -19,10 +19,11 @@ struct StartExact {
   static constexpr int terms = 2;  // |b_i|^2, |u*_i|^2
   LinearSystem system;
   Span<const Quad> predicted;
+  Chords chords;
   Span<Quad> base;
   HOST_DEVICE Terms<2> operator()(Index i) const {
     const Vec3 b = xyz(system.right_hand_side[i]);
-    base[i] = quad(b - system.apply(i, predicted), 0);
+    base[i] = quad(b - system.apply(i, predicted) - system.along_chords(i, chords), 0);
     const Vec3d speed = to_double(xyz(predicted[i]));
     return {{dot(to_double(b), to_double(b)), dot(speed, speed)}};
   }
@@ -82,8 +83,9 @@ struct BeginInnerSolve {
 
 }  // namespace
 
-void ViscousStep::start_exact(const LinearSystem& matrix) {
-  launch_reduction<AddUp>(context_, "start", matrix.size, StartExact{matrix, predicted_.span(), base_.span()},
+void ViscousStep::start_exact(const LinearSystem& matrix, const Chords& chords) {
+  launch_reduction<AddUp>(context_, "start", matrix.size,
+                          StartExact{matrix, predicted_.span(), chords, base_.span()},
                           KeepStart{work_.state(), matrix.size});
 }
 
@@ -120,8 +122,9 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
   int balanced_after = 10;  // and after ever more: augmentations that change for ever need not converge
   constexpr double largest_factor = 3;
   Buffer<Quad>& increment = fluid.increment;
+  const Chords along = chords(step, fluid);
   base_.resize(matrix.size);
-  start_exact(matrix);
+  start_exact(matrix, along);
   // The residual against the stresses of the last iteration bounds the velocity error as in other solves
   // (A >= m).
   ExactProgress progress;
@@ -137,14 +140,14 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
     result.iterations += inner.iterations, result.residual = inner.residual;
     if (!inner.converged && !(inner.residual <= progress.scale * allowed_error(progress.allowed, now.speed)))
       break;
-    judge(yield_.update(c, predicted_.span(), increment.span()), now.speed, progress);
+    judge(yield_.update(c, predicted_.span(), increment.span(), along), now.speed, progress);
     result.converged = progress.settled;
     if (result.converged || numerics_.yield_augmentation > 0 || progress.iterations < balanced_after)
       continue;
     balanced_after *= 2;
     yield_.begin(c, fluid, augmentation(c, step, largest_factor));
     assemble(c, step, fluid);
-    start_exact(matrix);
+    start_exact(matrix, along);
   }
   result.yield_iterations = progress.iterations;
   return result;

@@ -113,13 +113,14 @@ class Falls {
         if (holds(*below)) rests_[at(bodies.of[i])] = true;
   }
 
-  double fastest() {
+  ImpactSpeeds fastest() {
     const std::vector<std::int64_t> surface = surfaces();
     for (std::size_t i = 0; i < sites_.particles(); ++i)
       if (!rests_[at(bodies_.of[i])]) fly(fluid_.position[i], fluid_.velocity[i], bodies_.of[i]);
+    const double body = flown_;
     spill(surface);
     const double height = sites_.lattice().spacing() * static_cast<double>(fallen_);
-    return std::max(flown_, std::sqrt(2 * std::abs(a_[down_.axis]) * height));
+    return {body, std::max(flown_, std::sqrt(2 * std::abs(a_[down_.axis]) * height))};
   }
 
  private:
@@ -255,10 +256,10 @@ FluidBodies fluid_bodies(const Case& c, const StartSites& sites) {
   return Labels(sites, down_of(acceleration(c))).find();
 }
 
-double impact_speed(const Case& c, const StartSites& sites, const FluidParticles& fluid,
-                    const FluidBodies& bodies) {
+ImpactSpeeds impact_speeds(const Case& c, const StartSites& sites, const FluidParticles& fluid,
+                           const FluidBodies& bodies) {
   const Down down = down_of(acceleration(c));
-  if (down.step == 0 || sites.lattice().periodic(down.axis)) return 0;
+  if (down.step == 0 || sites.lattice().periodic(down.axis)) return {};
   return Falls(c, sites, fluid, bodies).fastest();
 }
 

@@ -58,6 +58,12 @@ double largest(const std::vector<double>& values) {
   return values.empty() ? 0 : *std::max_element(values.begin(), values.end());
 }
 
+SoundSpeedTerm impact_term(const ImpactSpeeds& impact) {
+  const SoundSpeedTerm body{"impact", 10, impact.body, "of a body on a wall or fluid that it falls on"};
+  const SoundSpeedTerm stream{"impact", 5, impact.stream, "on a wall or fluid that it falls on"};
+  return body.sound_speed() > stream.sound_speed() ? body : stream;
+}
+
 double pressure_speed(const Case& c) {
   double speed = 0;
   for (const RegionSpec& region : c.regions)
@@ -97,8 +103,7 @@ std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& fill
   double start = 0;
   for (const Vec3d& v : filling.fluid.velocity) start = std::max(start, norm(v));
   return {{"depth", 11, std::sqrt(2 * depth), "sqrt(2 g H), H " + rounded(g > 0 ? depth / g : 0) + " m"},
-          {"impact", 10, impact_speed(c, *filling.sites, filling.fluid, bodies),
-           "on a wall or fluid that it falls on"},
+          impact_term(impact_speeds(c, *filling.sites, filling.fluid, bodies)),
           {"walls", 10,
            std::max(largest(motion_speeds(c, filling.walls)), largest(surface_speeds(c, filling.walls))),
            "of the fastest wall"},

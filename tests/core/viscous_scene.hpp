@@ -21,36 +21,24 @@ inline void spin_along_chords(reference::World& world, Vec3d spin, double dt) {
 // The system on the device, in the device's order of particles.
 struct DeviceSystem {
   explicit DeviceSystem(Scene& s)
-      : middle(s.context, "middle", s.fluid.count),
-        predicted(s.context, "predicted", s.fluid.count),
+      : predicted(s.context, "predicted", s.fluid.count),
         by_pressure(s.context, "by pressure", s.fluid.count),
         given(s.context, "given", s.fluid.count),
         diagonal(s.context, "diagonal", s.fluid.count),
         right_hand_side(s.context, "right hand side", s.fluid.count),
         wall(s.context, "walls", s.fluid.count),
-        weight(s.context, "weights", s.fluid_list.capacity()) {
-    std::vector<Quad> x = download(s.context, s.fluid.place.span());
-    const std::vector<Quad> v = download(s.context, s.fluid.motion.span());
-    const auto half_way = static_cast<Real>(s.world.way / 2);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = quad(xyz(x[i]) + half_way * xyz(v[i]), 0);
-    middle.upload(x);
-  }
+        weight(s.context, "weights", s.fluid_list.capacity()) {}
 
-  PairContext pairs(const Scene& s) const {
-    PairContext c = s.pairs();
-    c.fluid.middle = middle.span();
-    return c;
-  }
   PredictorOutput output() {
     return {predicted.span(), by_pressure.span(), given.span(),          weight.span(),
             diagonal.span(),  wall.span(),        right_hand_side.span()};
   }
   LinearSystem system(const Scene& s) const {
-    return {s.fluid.count, s.fluid_list.view(),    weight.span(), middle.span(),  diagonal.span(),
+    return {s.fluid.count, s.fluid_list.view(),    weight.span(), s.fluid.place.span(), diagonal.span(),
             wall.span(),   right_hand_side.span(), s.box,         s.flow.coupling};
   }
 
-  Buffer<Quad> middle, predicted, by_pressure, given, diagonal, right_hand_side;
+  Buffer<Quad> predicted, by_pressure, given, diagonal, right_hand_side;
   Buffer<Symmetric3> wall;
   Buffer<Real> weight;
 };
@@ -69,7 +57,7 @@ class HostSystem {
         length_(download(s.context, s.fluid_list.view().length)),
         entry_(download(s.context, s.fluid_list.view().entry)),
         weight_(download(s.context, d.weight.span())),
-        middle_(download(s.context, d.middle.span())),
+        x_(download(s.context, s.fluid.place.span())),
         wall_(download(s.context, d.wall.span())),
         device_diagonal_(download(s.context, d.diagonal.span())),
         place_(id_.size()),
@@ -101,7 +89,7 @@ class HostSystem {
         const Offset at = s.links.row(number) + k * ListView::stride();
         const auto other = static_cast<std::size_t>(s.links.entry[at]);
         const auto j = static_cast<std::size_t>(id_[other]);
-        const Vec3 d = box_.separation(xyz(middle_[row]), xyz(middle_[other]));
+        const Vec3 d = box_.separation(xyz(x_[row]), xyz(x_[other]));
         const reference::Vec root = std::sqrt(static_cast<double>(s.weight[at])) * to_host(quad(d, 0));
         reference::add_block(a, i, i, 1, root);
         reference::add_block(a, i, j, -1, root);
@@ -121,7 +109,7 @@ class HostSystem {
     return {static_cast<Index>(id_.size()),
             {host_span(slice_), host_span(length_), host_span(entry_)},
             host_span(weight_),
-            host_span(middle_),
+            host_span(x_),
             host_span(device_diagonal_),
             host_span(wall_),
             {},
@@ -132,7 +120,7 @@ class HostSystem {
   std::vector<Offset> slice_;
   std::vector<Index> length_, entry_;
   std::vector<Real> weight_;
-  std::vector<Quad> middle_;
+  std::vector<Quad> x_;
   std::vector<Symmetric3> wall_;
   std::vector<Quad> device_diagonal_;
   std::vector<std::size_t> place_;
@@ -142,7 +130,7 @@ class HostSystem {
 inline HostSystem assemble(Scene& scene, double dt, double theta) {
   scene.upload();
   DeviceSystem system(scene);
-  predict_and_assemble(scene.context, system.pairs(scene), system.output(), static_cast<Real>(dt),
+  predict_and_assemble(scene.context, scene.pairs(), system.output(), static_cast<Real>(dt),
                        static_cast<Real>(theta));
   return {scene, system};
 }

@@ -104,7 +104,7 @@ struct AssembleRows {
   }
 
   HOST_DEVICE void add_row(Index a, Index i, RigidSum* total) const {
-    const Vec3d here = to_double(xyz(system.middle[i]));
+    const Vec3d here = to_double(xyz(system.place[i]));
     LinkSum sums[kept_slots] = {};  // to the following slots; the first: all that row i is held by
     LinkSum inner = {};             // in a rigid aggregate these do nothing
     LinkSum* sum = nullptr;
@@ -120,7 +120,7 @@ struct AssembleRows {
         sum = slot == own_slot ? &inner : &sums[larger(0, slot - own_slot)];
         last = b;
       }
-      Vec3d d = here - to_double(xyz(system.middle[j]));
+      Vec3d d = here - to_double(xyz(system.place[j]));
       const auto weight = static_cast<double>(system.weight[at]);
       if (periodic) {
         const Vec3d direct = d;

@@ -45,7 +45,7 @@ HOST_DEVICE inline Vec3d arm(const LinearSystem& system, const AggregateView& ag
                              Index owner) {
   if (system.coupling == PairCoupling::isotropic) return {};
   return nearest_image(system.box,
-                       to_double(xyz(system.middle[row])) - aggregates.grid.centre(aggregates.steps[owner]));
+                       to_double(xyz(system.place[row])) - aggregates.grid.centre(aggregates.steps[owner]));
 }
 
 // From the centre of an aggregate of the next coarser level to that of one of its parts [m].

@@ -48,7 +48,7 @@ TEST(SoundSpeed, DepthIsThatOfFluidThatHangsTogether) {
   EXPECT_DOUBLE_EQ(term(c, "impact"), fall(5));  // down its sides, onto the rest of it
 }
 
-TEST(SoundSpeed, FluidThatFallsOnAFloorAsksForFiveTimesItsSpeed) {
+TEST(SoundSpeed, ABodyThatFallsOnAFloorAsksForTenTimesItsSpeed) {
   Case c = tall_case();
   c.walls = {floor_at(0)};
   expect_fall(term(c, "impact"), 50);
@@ -204,10 +204,10 @@ TEST(SoundSpeed, CheckPrintsEachTermWhichRulesAndWhatItCosts) {
   EXPECT_THAT(text,
               testing::ContainsRegex("by depth +69.57 m/s = 11 x 6.325 m/s, sqrt\\(2 g H\\), H 2 m: time "
                                      "step 0.0149 s, 67 steps\n"));
-  EXPECT_THAT(text,
-              testing::ContainsRegex("by impact +31[67]\\..* m/s = 10 x 31\\..*, on a wall or fluid that it "
-                                     "falls on: time step .* steps, 4.5[45] times those by depth; auto "
-                                     "takes it\n"));
+  EXPECT_THAT(text, testing::ContainsRegex(
+                        "by impact +31[67]\\..* m/s = 10 x 31\\..*, of a body on a wall or fluid that it "
+                        "falls on: time step .* steps, 4.5[45] times those by depth; auto "
+                        "takes it\n"));
   c.numerics.sound_speed = 69.57;
   EXPECT_THAT(to_text(check_case(build_setup(c))),
               testing::ContainsRegex("warning: fluid will meet walls or fluid "
