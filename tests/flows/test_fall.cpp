@@ -1,0 +1,23 @@
+// What falls flat on a floor is borne by the sound speed that is chosen for it, and the watch lets it splash.
+#include "flows/flow.hpp"
+
+namespace slagflow {
+namespace {
+
+void expect_to_bear(const std::vector<std::string>& overrides, double time) {
+  Flow flow("verification/fall.toml", overrides);
+  EXPECT_NO_THROW(flow.run(time));
+  const auto most = flow.simulation().largest_compression();
+  std::printf("largest compression %.3f at %.4f s\n", most.value, most.time);
+  EXPECT_LT(most.value, 0.25);
+  EXPECT_GT(most.value, 0.05) << "nothing fell";
+}
+
+TEST(Fall, OfAFlatSlabOfWaterIsBorne) { expect_to_bear({}, 0.6); }
+
+TEST(Fall, OfSlagIsBorne) {
+  expect_to_bear({"fluid.water.dynamic_viscosity=2", "fluid.water.density=2600"}, 0.4);
+}
+
+}  // namespace
+}  // namespace slagflow
