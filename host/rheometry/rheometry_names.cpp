@@ -113,6 +113,7 @@ bool is_word_character(char c) {
 
 // Bytes of `text` of which the alias is the plain name; 0: it does not begin so.
 std::size_t length_of(const std::string& text, const std::string& alias) {
+  if (plain_name(text.substr(0, 3 * alias.size())).compare(0, alias.size(), alias) != 0) return 0;
   for (std::size_t end = alias.size() / 3; end <= text.size() && end < 3 * alias.size(); ++end) {
     if (plain_name(text.substr(0, end)) != alias) continue;
     const std::string next = plain_name(text.substr(end, 1));
