@@ -17,11 +17,10 @@ FluidBodies fluid_bodies(const Case& c, const StartSites& sites);
 
 // The largest speeds at which fluid will meet a wall or fluid at rest inside of the domain [m/s]: of bodies
 // that fly, which strike with a whole face, and of streams off edges. 0 where nothing falls by more than two
-// spacings. Walls that move or vanish count on the way but hold nothing: fluid
-// goes on from them. What leaves the domain on its way does not count. A body that rests on nothing flies
-// along its parabola. One that rests, by any part, may spread over the floors that it can reach downhill, and
-// what falls or leaps off their edges has the speed of a fall from its surface; after a fall, from its depth
-// above where it lands.
+// spacings. Walls that move or vanish count on the way but hold nothing: fluid goes on from them. What leaves
+// the domain on its way does not count. A body that rests on nothing flies along its parabola. One that
+// rests, by any part, may spread over the floors that it can reach downhill, and what falls or leaps off
+// their edges has the speed of a fall from its surface; after a fall, from its depth above where it lands.
 struct ImpactSpeeds {
   double body = 0, stream = 0;
 };
