@@ -61,9 +61,12 @@ class Filler {
 
   void mark_wall(std::size_t b) {
     lattice_.visit_inside([&](Vec3d p) { return solids_[b].distance(p); },
-                          [&](const SiteIndex& s, Vec3d) {
+                          [&](const SiteIndex& s, Vec3d p) {
                             std::uint8_t& body = body_[lattice_.linear(s)];
-                            if (body == 0) body = static_cast<std::uint8_t>(b + 1);
+                            if (body == 0)
+                              body = static_cast<std::uint8_t>(b + 1);
+                            else if (solids_.moves(b) && !solids_.moves(body - std::size_t{1}))
+                              survey_.covered(p, b);
                           });
   }
 

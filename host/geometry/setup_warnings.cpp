@@ -128,6 +128,25 @@ void warn_of_lost_yield_stress(const BuiltCase& built, std::size_t f, std::vecto
   }
 }
 
+// Particles of a lattice show a wave of less than two spacings as a longer one.
+void warn_of_short_waves(const Case& c, std::vector<std::string>& warnings) {
+  constexpr double carried = 8;  // spacings a wave
+  for (std::size_t r = 0; r < c.regions.size(); ++r)
+    for (std::size_t w = 0; w < c.regions[r].waves.size(); ++w) {
+      const double length = 1 / norm(c.regions[r].waves[w].wave_vector);  // [m]
+      if (length >= carried * c.spacing) continue;
+      std::array<char, 300> text{};
+      std::snprintf(
+          text.data(), text.size(),
+          "region.%zu.waves.%zu is %.3g m long, %.2g spacings: %s; wave_vector is one over the "
+          "length, without 2 pi, and a resolution.spacing of %.2g m carries it",
+          r, w, length, length / c.spacing,
+          length > 2 * c.spacing ? "too few to carry it" : "its particles start as in another, longer wave",
+          length / carried);
+      warnings.emplace_back(text.data());
+    }
+}
+
 }  // namespace
 
 void warn_of_setup(BuiltCase& built, const std::vector<double>& wall_speeds) {
@@ -138,6 +157,7 @@ void warn_of_setup(BuiltCase& built, const std::vector<double>& wall_speeds) {
   warn_of_currents(c, built.warnings);
   warn_of_fast_walls(wall_speeds, built.setup, built.warnings);
   warn_of_support(c, built.warnings);
+  warn_of_short_waves(c, built.warnings);
   for (std::size_t f = 0; f < c.fluids.size(); ++f) warn_of_lost_yield_stress(built, f, built.warnings);
 }
 

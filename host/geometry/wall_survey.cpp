@@ -17,6 +17,7 @@ constexpr double step_width = 1.8;     // [spacings] to either side: steps less 
 constexpr std::size_t half_turn = 8;   // directions that steps are looked for in
 constexpr double pi = 3.14159265358979323846;
 constexpr double step_height = 0.4;  // [spacings]
+constexpr int looks = 24;            // at a wall on its way
 
 std::string place(Vec3d p) {
   char text[100];
@@ -49,7 +50,10 @@ WallSurvey::WallSurvey(const Case& c, const Lattice& lattice, const WallSolids& 
       particles_(solids.count()),
       thin_(solids.count()),
       steps_(solids.count()),
-      dropped_(solids.count()) {}
+      dropped_(solids.count()),
+      covered_(solids.count()) {
+  for (const WallSpec& wall : c.walls) poses_.push_back(poses(wall.motion));
+}
 
 double WallSurvey::distance(Vec3d p, std::size_t body) const {
   return solids_.distance_to_company(lattice_.wrapped(p), body);
@@ -122,6 +126,32 @@ bool WallSurvey::even(Vec3d foot, Vec3d way, std::size_t body) const {
          std::abs(distance(foot - spacing_ * way, body)) < height;
 }
 
+std::vector<WallSurvey::Pose> WallSurvey::poses(const WallMotion& motion) const {
+  std::vector<Pose> poses;
+  if (!motion.moves()) return poses;
+  const double last = std::min(c_.output.end_time, motion.remove_at);
+  for (int k = 1; k <= looks; ++k) {
+    const BodyPose pose = motion.pose(last * k / looks);
+    poses.push_back({pose.shift, rotation(pose.turn)});
+  }
+  return poses;
+}
+
+void WallSurvey::covered(Vec3d p, std::size_t body) {
+  const Vec3d center = c_.walls[body].motion.center;
+  for (const Pose& pose : poses_[body]) {
+    const Vec3d there = lattice_.wrapped(center + pose.shift + pose.turned * (p - center));
+    if (lattice_.in_domain(there) && open_beside(there)) return covered_[body].add(p);
+  }
+}
+
+// Whether no wall at rest is there.
+bool WallSurvey::open_beside(Vec3d p) const {
+  for (std::size_t b = 0; b < solids_.count(); ++b)
+    if (!solids_.moves(b) && solids_[b].distance(p) < 0.5 * spacing_) return false;
+  return true;
+}
+
 std::vector<std::string> WallSurvey::warnings() const {
   std::vector<std::string> lines;
   char number[40];
@@ -143,6 +173,12 @@ std::vector<std::string> WallSurvey::warnings() const {
       lines.push_back(wall + " has no face near " + std::to_string(dropped_[b].count) +
                       " lattice sites inside of it, the first at " + place(dropped_[b].first) +
                       ", which get no particle: fluid may pass");
+    if (covered_[b].count > 0)
+      lines.push_back(wall + " starts partly inside walls at rest, which keep " +
+                      std::to_string(covered_[b].count) + " of its lattice sites, the first at " +
+                      place(covered_[b].first) +
+                      ": when it comes out of there that part of it is missing; allowed: a start outside of "
+                      "them, or room for it by their 'subtract'");
   }
   return lines;
 }

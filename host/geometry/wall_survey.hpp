@@ -21,6 +21,10 @@ class WallSurvey {
   // A site in a wall of which no face is known; it gets no particle.
   void dropped(Vec3d p, std::size_t body) { dropped_[body].add(p); }
 
+  // A site in a wall that moves, and in another at rest that keeps it: what comes out of there is missing.
+  // A few places of the way are looked at.
+  void covered(Vec3d p, std::size_t body);
+
   // One line for each wall and kind.
   std::vector<std::string> warnings() const;
 
@@ -36,12 +40,19 @@ class WallSurvey {
     double thickness = 0;  // [spacings] the least
   };
 
+  struct Pose {
+    Vec3d shift;
+    Rotation turned;
+  };
+
+  std::vector<Pose> poses(const WallMotion&) const;
   double thickness(Vec3d foot, Vec3d normal, std::size_t body) const;
   bool faces_back(Vec3d p, Vec3d normal, std::size_t body) const;
   bool has_step(Vec3d foot, Vec3d normal, std::size_t body) const;
   bool rises(Vec3d foot, Vec3d way, std::size_t body) const;
   bool even(Vec3d foot, Vec3d way, std::size_t body) const;
   bool open_at(Vec3d p, std::size_t body) const;
+  bool open_beside(Vec3d p) const;
   double distance(Vec3d p, std::size_t body) const;
 
   const Case& c_;
@@ -50,7 +61,8 @@ class WallSurvey {
   double spacing_;
   std::vector<std::size_t> particles_;  // of each wall
   std::vector<Thin> thin_;
-  std::vector<Found> steps_, dropped_;
+  std::vector<Found> steps_, dropped_, covered_;
+  std::vector<std::vector<Pose>> poses_;  // of walls that move, on their way
 };
 
 }  // namespace slagflow

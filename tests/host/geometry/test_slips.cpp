@@ -93,5 +93,16 @@ TEST(Slips, LayersOfVeryDifferentDensityAreTold) {
   EXPECT_THAT(with(70, 0.3), Contains(HasSubstr("meant in lb/ft^3? Then density = 1121.0")));
 }
 
+TEST(Slips, WavesThatTheSpacingDoesNotCarryAreTold) {
+  const auto with = [](double length) {
+    Case c = unit_case();
+    c.regions[0].waves = {{{1, 0, 0}, {0, 0, 1 / length}, 0}};
+    return warnings(c);
+  };
+  EXPECT_THAT(with(8), Not(Contains(HasSubstr("waves"))));
+  EXPECT_THAT(with(5), Contains(HasSubstr("region.0.waves.0 is 5 m long, 5 spacings: too few to carry it")));
+  EXPECT_THAT(with(1.25), Contains(HasSubstr("as in another, longer wave")));
+}
+
 }  // namespace
 }  // namespace slagflow

@@ -17,6 +17,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 std::vector<std::string> warnings(std::vector<WallSpec> walls) {
   Case c = unit_case();
@@ -60,6 +61,27 @@ TEST(WallSurvey, InclinedPlatesAreMeasuredAlongTheirNormal) {
   };
   EXPECT_THAT(warnings({inclined(1.5)}), ElementsAre(HasSubstr("is 1.5 spacings thick")));
   EXPECT_THAT(warnings({inclined(3)}), IsEmpty());
+}
+
+// A ram that starts in a block and comes out of it lacks what the block keeps; one that only goes deeper, or
+// along the block, does not.
+TEST(WallSurvey, PartOfAMovingWallThatComesOutOfAnotherIsWarnedOf) {
+  const auto told = [](Vec3d velocity, double far) {
+    WallSpec ram = wall("ram", {box({0, 3, 5}, {far, 6, 8})});
+    ram.motion.kind = MotionKind::constant;
+    ram.motion.velocity = velocity;
+    Case c = unit_case();
+    c.regions[0].shapes = {box({7, 4, 7}, {9, 6, 9})};
+    c.output.end_time = 1;
+    c.walls = {ram, wall("block", {box({-20, -20, -20}, {4, 30, 30})})};
+    return fill(c).warnings;
+  };
+  const auto missing = Contains(HasSubstr("wall 'ram' starts partly inside walls at rest, which keep "));
+  EXPECT_THAT(told({3, 0, 0}, 5), missing);
+  EXPECT_THAT(told({3, 0, 0}, 4), missing);  // all of it
+  EXPECT_THAT(told({-3, 0, 0}, 5), Not(missing));
+  EXPECT_THAT(told({0, 0, 1}, 5), Not(missing));
+  EXPECT_THAT(told({0, 0, 0}, 5), Not(missing));
 }
 
 TEST(WallSurvey, StlPlateIsWarnedOfAsTheBoxIs) {
