@@ -126,10 +126,16 @@ void validate(const SimulationSetup& s) {
               (w.back_depth.empty() || w.back_depth.size() == w.position.size()) &&
               w.back_normal.size() == w.back_depth.size(),
           "wall arrays differ in length");
+  for (const InletSetup& in : s.inlets)
+    require(!in.origin.empty() && in.share.size() == in.origin.size() && in.stride > 0 &&
+                in.body < s.bodies.size() && in.fluid < s.fluids.size(),
+            "inlet \"" + in.name + "\" has no columns, or not as it should");
   for (int k = 0; k < 3; ++k)
     require(s.domain.upper[k] > s.domain.lower[k],
             "the domain has no extent along axis " + std::string(1, "xyz"[k]));
 }
+
+int inlet_layers(const SimulationSetup& s) { return static_cast<int>(std::ceil(s.support_ratio)); }
 
 double wall_tension_limit(const WallBody& body, const NumericsSetup& n) {
   if (body.tension_limit >= 0) return body.tension_limit;

@@ -27,6 +27,8 @@ bool allows_exact_yield(RheologyKind);
 
 FlowConstants flow_constants(const SimulationSetup&);
 std::vector<FluidConstants> fluid_constants(const SimulationSetup&);
+// Wall particles in a column of an inlet: as many as the support holds.
+int inlet_layers(const SimulationSetup&);
 // Of one particle of fluid `kind` [kg].
 double particle_mass(const SimulationSetup&, std::size_t kind);
 

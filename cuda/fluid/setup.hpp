@@ -9,6 +9,7 @@
 #include "fluid/math.hpp"
 #include "fluid/models.hpp"
 #include "fluid/motion.hpp"
+#include "fluid/openings.hpp"
 #include "fluid/smoothing/smoothing.hpp"
 
 namespace slagflow {
@@ -180,6 +181,8 @@ struct SimulationSetup {
   FluidParticles particles;
   WallParticles walls;
   std::vector<WallBody> bodies;
+  std::vector<InletSetup> inlets;  // their wall particles are the last of the walls
+  std::vector<OutletSetup> outlets;
   DomainSetup domain;
   NumericsSetup numerics;
   LimitSetup limits;

@@ -10,12 +10,13 @@ namespace {
 constexpr std::uint8_t inside = 255;
 constexpr std::uint64_t departed_key = std::uint64_t(1) << 63;  // sorts behind every cell
 
-// Sort key: cell in the upper, id in the lower 32 bits. Wraps periodic axes and finds the face through which
-// a particle left.
+// Sort key: cell in the upper, id in the lower 32 bits. Wraps periodic axes and finds the face or outlet
+// through which a particle left.
 struct FluidKey {
   CellGrid grid;
   Vec3d extent;
   bool periodic[3];
+  Span<const OutletBox> outlets;
   Span<const Index> id;
   Span<Vec3d> position;
   Span<Quad> place;
@@ -32,6 +33,9 @@ struct FluidKey {
       else if (!(x[k] >= 0 && x[k] <= extent[k]))
         face = static_cast<std::uint8_t>(2 * k + (x[k] > extent[k] ? 1 : 0));
     }
+    if (face == inside)
+      if (const int outlet = outlet_at(outlets, x); outlet >= 0)
+        face = static_cast<std::uint8_t>(faces + outlet);
     position[i] = x;
     const Quad rounded = quad(to_real(x), place[i].w);
     place[i] = rounded;
@@ -74,7 +78,7 @@ struct Gather {
   HOST_DEVICE void operator()(Index i) const { to[i] = from[order[i]]; }
 };
 
-// 1 for particles of one fluid that left through one face (any face, any fluid: wildcard).
+// 1 for particles of one fluid that left through one face or outlet (any face, any fluid: wildcard).
 struct FlagDeparted {
   Span<const std::uint8_t> exit, fluid;
   int face, kind;  // -1: any
@@ -98,6 +102,7 @@ Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic
       spare_key_(c, "sort keys"),
       order_(c, "sort order"),
       spare_order_(c, "sort order"),
+      outlets_(c, "outlets"),
       exit_(c, "exits"),
       flag_(c, "exit flags"),
       spare_(Buffer<Vec3d>(c, "sort spare"), Buffer<Quad>(c, "sort spare"), Buffer<Real>(c, "sort spare"),
@@ -125,10 +130,14 @@ Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed) {
     return static_cast<std::int64_t>(sum(context_, flag_.span()));
   };
   const std::int64_t all = count(-1, -1);
-  if (all > 0)
-    for (std::size_t kind = 0; kind < departed.size(); ++kind)
-      for (int face = 0; face < faces; ++face)
-        departed[kind][static_cast<std::size_t>(face)] += count(face, static_cast<int>(kind));
+  if (all == 0) return fluid.count;
+  for (std::size_t kind = 0; kind < departed.size(); ++kind) {
+    for (int face = 0; face < faces; ++face)
+      departed[kind][static_cast<std::size_t>(face)] += count(face, static_cast<int>(kind));
+    for (Offset outlet = 0; outlet < outlets_.size(); ++outlet)
+      removed[static_cast<std::size_t>(outlet) * departed.size() + kind] +=
+          count(faces + static_cast<int>(outlet), static_cast<int>(kind));
+  }
   return fluid.count - static_cast<Index>(all);
 }
 
@@ -139,6 +148,7 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
          FluidKey{grid_,
                   extent_,
                   {periodic_[0], periodic_[1], periodic_[2]},
+                  outlets_.span(),
                   f.id.span(),
                   f.position.span(),
                   f.place.span(),

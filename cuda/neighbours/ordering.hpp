@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "backend/primitives.hpp"
+#include "fluid/openings.hpp"
 #include "fluid/particles.hpp"
 #include "neighbours/cells.hpp"
 
@@ -20,12 +21,21 @@ class Ordering {
  public:
   Ordering(Context&, Vec3d extent, const std::array<bool, 3>& periodic, const CellGrid&);
 
+  // Outlets, by default none, for as many fluids.
+  void set_outlets(const std::vector<OutletBox>& boxes, std::size_t fluids) {
+    outlets_.upload(boxes);
+    removed.assign(boxes.size() * fluids, 0);
+  }
+  Span<const OutletBox> outlets() const { return outlets_.span(); }
+
   // Sorts by cell, then by id, all arrays of the fluid; wraps positions on periodic axes; drops particles
-  // outside of the domain and adds them to `departed` (one entry per fluid). Derived arrays (state, pressure,
-  // shear rate) keep their values.
+  // outside of the domain and adds them to `departed` (one entry per fluid), and those in outlets, adding
+  // them to `removed`. Derived arrays (state, pressure, shear rate) keep their values.
   void sort(FluidArrays&, DepartureCounts& departed);
   // Drops the particles of walls that have vanished.
   void sort(WallArrays&);
+
+  std::vector<std::int64_t> removed;  // by outlet, then by fluid
 
   // Finds the cells of particles that are in order already.
   void find_cells(const FluidArrays&);
@@ -51,6 +61,7 @@ class Ordering {
   CellRanges fluid_cells_, wall_cells_;
   Buffer<std::uint64_t> key_, spare_key_;
   Buffer<Index> order_, spare_order_;
+  Buffer<OutletBox> outlets_;
   Buffer<std::uint8_t> exit_;
   Buffer<double> flag_;
   // Where reordered values go; takes the place of the array that they come from.

@@ -154,6 +154,22 @@ struct FourTerms {
   HOST_DEVICE Terms<4> operator()(Index i) const { return {{a(i), b(i), c(i), d(i)}}; }
 };
 
+template <class Term>
+struct From {
+  Term term;
+  Index first;
+  HOST_DEVICE double operator()(Index i) const { return term(first + i); }
+};
+
+// From the lowest point of the domain.
+PotentialEnergy potential_energy(const FluidArrays& f, Span<const FluidConstants> fluids,
+                                 const SimulationSetup& setup) {
+  const Vec3d force = setup.gravity + setup.body_acceleration;
+  Vec3d lowest;  // relative to its lower corner
+  for (int k = 0; k < 3; ++k) lowest[k] = force[k] > 0 ? setup.domain.upper[k] - setup.domain.lower[k] : 0;
+  return {fluids, f.fluid.span(), f.position.span(), force, -lowest};
+}
+
 FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& front, Vec3d origin,
                          DiagnosticScratch& scratch) {
   FrontState state;
@@ -202,22 +218,30 @@ Totals measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstant
   return t;
 }
 
+double energy_from(Context& c, Index first, const FluidArrays& f, Span<const FluidConstants> fluids,
+                   const SimulationSetup& setup, DiagnosticScratch& scratch) {
+  const auto motion = f.motion.span();
+  const auto kind = f.fluid.span();
+  const Index n = f.count - first;
+  return total(c, scratch, n, From<KineticEnergy>{{fluids, kind, motion}, first}) +
+         total(c, scratch, n, From<PotentialEnergy>{potential_energy(f, fluids, setup), first}) +
+         total(c, scratch, n,
+               From<ElasticEnergy>{
+                   {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit}, first});
+}
+
 Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
                       const SimulationSetup& setup, DiagnosticScratch& scratch) {
   const Index n = f.count;
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
-  const Vec3d force = setup.gravity + setup.body_acceleration;
-  Vec3d lowest;  // point of the domain, relative to its lower corner
-  for (int k = 0; k < 3; ++k) lowest[k] = force[k] > 0 ? setup.domain.upper[k] - setup.domain.lower[k] : 0;
-  const PotentialEnergy potential{fluids, kind, f.position.span(), force, -lowest};
   const auto most = reduce_terms<TakeLargest>(
       c, scratch, n, PairOfTerms<SpeedSquared, Compression>{{motion}, {fluids, kind, motion, 1}});
   const auto energy = reduce_terms<AddUp>(
       c, scratch, n,
       FourTerms<KineticEnergy, PotentialEnergy, ElasticEnergy, PressureEnergy>{
           {fluids, kind, motion},
-          potential,
+          potential_energy(f, fluids, setup),
           {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit},
           {fluids, kind, f.pressure.span()}});
   Vitals v;

@@ -25,6 +25,10 @@ struct Vitals {
 Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
                       DiagnosticScratch&);
 
+// Kinetic and stored energy, as of Vitals, of the particles from one on [J].
+double energy_from(Context&, Index first, const FluidArrays&, Span<const FluidConstants>,
+                   const SimulationSetup&, DiagnosticScratch&);
+
 // Mean number of fluid and wall particles within the support radius of a fluid particle, itself not counted.
 double mean_neighbours(Context&, const PairContext&, DiagnosticScratch&);
 

@@ -35,18 +35,19 @@ struct Behind {
   HOST_DEVICE double operator()(Index i) const { return plane.beyond(now[i]) ? 0 : 1; }
 };
 
-// Behind the plane, and about to be dropped because it has left the domain.
+// Behind the plane, and about to be dropped because it has left the domain or is in an outlet.
 struct LostBehind {
   Span<const Vec3d> position;
   Span<const Quad> now;
   Plane plane;
   Vec3d extent;
   bool periodic[3];
+  Span<const OutletBox> outlets;
   HOST_DEVICE double operator()(Index i) const {
     const Vec3d x = position[i];
-    for (int k = 0; k < 3; ++k)
-      if (!periodic[k] && !(x[k] >= 0 && x[k] <= extent[k])) return plane.beyond(now[i]) ? 0 : 1;
-    return 0;
+    bool lost = outlet_at(outlets, x) >= 0;
+    for (int k = 0; k < 3; ++k) lost = lost || (!periodic[k] && !(x[k] >= 0 && x[k] <= extent[k]));
+    return lost && !plane.beyond(now[i]) ? 1 : 0;
   }
 };
 
@@ -173,16 +174,26 @@ void PlaneCounters::begin(Context& c, const FluidArrays& f, DiagnosticScratch& s
         count(c, scratch, f.count, Behind{f.place.span(), {planes_[k].axis, planes_[k].sign, place_[k]}});
 }
 
+void PlaneCounters::add(const std::vector<Vec3d>& places) {
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const Plane plane{planes_[k].axis, planes_[k].sign, place_[k]};
+    for (const Vec3d& x : places) records[k].start_behind += plane.beyond(quad(to_real(x), 0)) ? 0 : 1;
+  }
+}
+
 void PlaneCounters::advance(Context& c, const FluidArrays& f, Span<const Quad> before,
-                            DiagnosticScratch& scratch) {
+                            DiagnosticScratch& scratch, Span<const OutletBox> outlets) {
   const std::vector<PlaneState> now = states(c, f, before, scratch);
   for (std::size_t k = 0; k < planes_.size(); ++k) {
     const Plane plane{planes_[k].axis, planes_[k].sign, place_[k]};
     records[k].passed = now[k].passed;
-    records[k].lost_behind += count(
-        c, scratch, f.count,
-        LostBehind{
-            f.position.span(), f.place.span(), plane, extent_, {periodic_[0], periodic_[1], periodic_[2]}});
+    records[k].lost_behind += count(c, scratch, f.count,
+                                    LostBehind{f.position.span(),
+                                               f.place.span(),
+                                               plane,
+                                               extent_,
+                                               {periodic_[0], periodic_[1], periodic_[2]},
+                                               outlets});
   }
 }
 

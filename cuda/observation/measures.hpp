@@ -28,8 +28,11 @@ class PlaneCounters {
 
   // Counts what stands behind each plane at the start.
   void begin(Context&, const FluidArrays&, DiagnosticScratch&);
-  // Before particles are sorted and dropped. `before`: their places at the last rebuild.
-  void advance(Context&, const FluidArrays&, Span<const Quad> before, DiagnosticScratch&);
+  // Before particles are sorted and dropped, by outlets too. `before`: their places at the last rebuild.
+  void advance(Context&, const FluidArrays&, Span<const Quad> before, DiagnosticScratch&,
+               Span<const OutletBox> outlets = {});
+  // Counts what has come in since, at places relative to the domain, as if it had been there from the start.
+  void add(const std::vector<Vec3d>& places);
   // Now, between two rebuilds.
   std::vector<PlaneState> states(Context&, const FluidArrays&, Span<const Quad> before,
                                  DiagnosticScratch&) const;

@@ -43,15 +43,18 @@ struct WallLoad {
 };
 
 struct Totals {
-  std::int64_t particles = 0;              // fluid particles in the domain
-  std::array<std::int64_t, 6> departed{};  // through -x +x -y +y -z +z
-  double mass_start = 0;                   // [kg] at the start
-  double mass_in = 0;                      // [kg] in the domain
-  double mass_left = 0;                    // [kg] departed
-  double max_speed = 0;                    // [m/s]
-  double kinetic_energy = 0;               // [J]
-  double potential_energy = 0;             // [J], -sum m (gravity + body acceleration) . x
-  double dissipated_energy = 0;            // [J], by viscosity since the start
+  std::int64_t particles = 0;                  // fluid particles in the domain
+  std::array<std::int64_t, 6> departed{};      // through -x +x -y +y -z +z
+  double mass_start = 0;                       // [kg] at the start
+  double mass_in = 0;                          // [kg] in the domain
+  double mass_left = 0;                        // [kg] departed, or taken by outlets
+  double mass_fed = 0;                         // [kg] by inlets
+  std::vector<std::int64_t> fed, removed;      // particles, by inlet and by outlet
+  std::vector<double> fed_mass, removed_mass;  // [kg]
+  double max_speed = 0;                        // [m/s]
+  double kinetic_energy = 0;                   // [J]
+  double potential_energy = 0;                 // [J], -sum m (gravity + body acceleration) . x
+  double dissipated_energy = 0;                // [J], by viscosity since the start
   double max_density_error = 0;     // largest (rho - rho0)/rho0; expansion, as in spray, is not counted
   std::int64_t in_thin_sheets = 0;  // particles in sheets below three across (observation/sheets.hpp)
   double min_density_ratio = 1;     // smallest rho/rho0

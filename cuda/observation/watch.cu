@@ -42,7 +42,8 @@ void Watch::begin(const FluidArrays& fluid, Span<const FluidConstants> fluids, D
 void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, const WatchMoment& now,
                  DiagnosticScratch& scratch) {
   const LimitSetup& limits = setup_.limits;
-  const double lost = static_cast<double>(now.departed) / larger(1.0, particles_);
+  const double lost =
+      static_cast<double>(now.departed) / larger(1.0, particles_ + static_cast<double>(now.fed));
   if (lost > limits.max_lost_fraction)
     fail(now,
          "a fraction " + number(lost) +
@@ -91,8 +92,8 @@ void Watch::check_energy(const Vitals& vitals, const WatchMoment& now) {
   // The work of walls is known to some ten per cent only: their pressure is too low next to the free surface.
   constexpr double work_weight = 3;
   const double scale = vitals.kinetic_energy + larger(now.dissipated, 0.0) +
-                       work_weight * std::fabs(now.work) + mass_ * norm(force) * setup_.spacing +
-                       1e-3 * vitals.elastic_energy;
+                       work_weight * std::fabs(now.work) +
+                       (mass_ + now.fed_mass) * norm(force) * setup_.spacing + 1e-3 * vitals.elastic_energy;
   const double growth = (sure_energy - seen.lowest_energy) / scale;
   if (growth > setup_.limits.max_energy_growth)
     fail(now,
@@ -126,6 +127,7 @@ void Watch::check_given(const Vitals& vitals, const WatchMoment& now, double sca
   constexpr double forgotten = 0.125;  // a look
   seen.given = now.given;
   seen.recent_energy += above > 0 ? above : forgotten * above;
+  if (!setup_.inlets.empty()) return;
   for (const WallBody& body : setup_.bodies)
     if (body.motion.moves()) return;
   constexpr double arrangement = 0.05;

@@ -11,7 +11,8 @@ struct WatchMoment {
   // [J] dissipated; done by moving walls and surface tension; given by pairing and the pressure of walls,
   // which the elastic energy knows nothing of, and of that in the last step
   double dissipated, work, given, just_given;
-  std::int64_t step, departed;
+  std::int64_t step, departed, fed;
+  double fed_mass;  // [kg]
 };
 
 class Watch {

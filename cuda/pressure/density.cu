@@ -20,6 +20,10 @@ struct PairSums {
 
 // Sum V W where particles in disorder leave no voids; 1 on a lattice.
 constexpr Real closed_fill = Real(1.02);
+// Below that there are some around a particle that has left voids, of more than a share of its density.
+constexpr Real open_fill = Real(0.96), true_void = Real(0.02);
+// But not where a wall particle is nearer [spacings]: what strikes a wall is stopped there.
+constexpr Real pressed_within = Real(0.9);
 
 // Particle i as its pairs see it.
 struct Centre {
@@ -38,7 +42,7 @@ struct DensityAndShear {
   Box box;
   Real moved;              // [s]
   Real inverse_stiffness;  // 1/c0^2
-  Span<Real> excess, shear_rate, contact;
+  Span<Real> excess, hollow, shear_rate, contact;
 
   HOST_DEVICE void operator()(Index i) const {
     const Quad motion = c.fluid.motion[i];
@@ -56,7 +60,9 @@ struct DensityAndShear {
     add_walls(i, centre, sums);
     const Real denser = moved * total(sums.approach) + total(sums.squeeze) +
                         held_together(centre, sums) * (moved * total(sums.apart) + total(sums.torn));
-    excess[i] = motion.w - hollow(i, centre, total(sums.fill)) + (kind.rest_density + motion.w) * denser +
+    const Real left = void_left(i, centre, sums);
+    hollow[i] = left;
+    excess[i] = motion.w - left + (kind.rest_density + motion.w) * denser +
                 moved * c.flow.diffusion * total(sums.diffusion);
     shear_rate[i] = std::sqrt(c.flow.shear_factor * total(sums.shear));
     Real from_wall = Real(1e30);
@@ -66,11 +72,16 @@ struct DensityAndShear {
   }
 
   // What is left of the void of a particle: no more than the places of its neighbours, with the sum V W over
-  // them, leave room for.
-  HOST_DEVICE Real hollow(Index i, const Centre& centre, Real neighbours) const {
+  // them, leave room for; and no less than they show. Continuity alone forgets what opens where few
+  // neighbours are left to tell of it, as in a jet that falls.
+  HOST_DEVICE Real void_left(Index i, const Centre& centre, const PairSums& sums) const {
     if (!(centre.hollow > 0)) return 0;
-    const Real fill = neighbours + c.fluid.place[i].w * c.flow.smoothing.value(Real(0));
-    return smaller(centre.hollow, centre.rest_density * larger(Real(0), closed_fill - fill));
+    const Real fill = total(sums.fill) + c.fluid.place[i].w * c.flow.smoothing.value(Real(0));
+    const bool pressed = least(sums.nearest_wall) < square(pressed_within * c.flow.spacing);
+    const bool open = centre.hollow > true_void * centre.rest_density && !pressed;
+    const Real seen = open ? open_fill - fill : Real(0);
+    return smaller(larger(centre.hollow, centre.rest_density * seen),
+                   centre.rest_density * larger(Real(0), closed_fill - fill));
   }
 
   HOST_DEVICE void add_fluid(Index i, const Centre& centre, PairSums& sums) const {
@@ -212,7 +223,10 @@ struct StateFromDensity {
     const Real limit = flow.viscous_tension
                            ? smaller(flow.tension_limit, larger(Real(0), most_tension * eta * shear_rate[i]))
                            : flow.tension_limit;
-    const Real kept = flow.viscous_tension ? larger(excess[i], -limit / flow.sound_speed_squared) : excess[i];
+    // Over a void tension grows by expansion alone, not with its limit.
+    const Real stretched = hollow[i] > 0 ? smaller(excess[i] + hollow[i], motion[i].w) : excess[i];
+    const Real least = larger(stretched, -limit / flow.sound_speed_squared);
+    const Real kept = flow.viscous_tension ? larger(excess[i], least) : excess[i];
     const Real p = larger(flow.sound_speed_squared * kept, -limit), volume = f.volume(kept, packing[i]);
     motion[i].w = kept;
     hollow[i] = kept - excess[i];
@@ -228,9 +242,10 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
                     Real moved) {
   scratch.resize(fluid.count);
   auto sweep = [&](auto box) {
-    launch(context, "density and shear rate", fluid.count,
-           DensityAndShear<decltype(box)>{c, box, moved, 1 / c.flow.sound_speed_squared, scratch.span(),
-                                          fluid.shear_rate.span(), fluid.contact.span()});
+    launch(
+        context, "density and shear rate", fluid.count,
+        DensityAndShear<decltype(box)>{c, box, moved, 1 / c.flow.sound_speed_squared, scratch.span(),
+                                       fluid.hollow.span(), fluid.shear_rate.span(), fluid.contact.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
   launch(context, "state", fluid.count,

@@ -30,6 +30,13 @@ CellGrid cover_domain(const SimulationSetup& s) {
   return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
 }
 
+std::vector<OutletBox> outlet_boxes(const SimulationSetup& s) {
+  std::vector<OutletBox> boxes;
+  for (const OutletSetup& outlet : s.outlets)
+    boxes.push_back({outlet.lower - s.domain.lower, outlet.upper - s.domain.lower});
+  return boxes;
+}
+
 // Of fluid that rests on its lattice.
 FluidMemory memory_at_rest(const SimulationSetup& s) {
   const auto constants = fluid_constants(s);
@@ -57,6 +64,7 @@ Simulation::State::State(const SimulationSetup& s)
       fluid(context),
       wall(context),
       walls(context),
+      inlets(context),
       ordering(context, extent(s), s.domain.periodic, cover_domain(s)),
       fluid_list(context, "fluid neighbours"),
       wall_list(context, "wall neighbours"),
@@ -78,6 +86,7 @@ Simulation::State::State(const SimulationSetup& s)
       side_stream(context) {
   if (setup.time_parts) step_graph.launch_singly();
   departed.resize(s.fluids.size());
+  ordering.set_outlets(outlet_boxes(s), s.fluids.size());
   dt = full_dt = stable_time_step(setup);
   time = setup.start_time, last_dt = setup.last_step;
   upload_fluid();
@@ -125,7 +134,8 @@ void Simulation::State::upload_fluid() {
 
 void Simulation::State::upload_walls() {
   walls.upload(setup, wall);
-  walls.place({time, dt, 0}, wall);
+  inlets.upload(setup);
+  walls.place({time, dt, 0}, wall), inlets.place({time, dt, 0}, wall);
   if (knows_wall_forces()) wall_forces.start(setup.walls.body);
   setup.walls.normal = setup.walls.back_normal = {};
   setup.walls.depth = setup.walls.back_depth = {};
@@ -134,18 +144,41 @@ void Simulation::State::upload_walls() {
 
 void Simulation::State::rebuild() {
   Section timer(context, "neighbours");
-  planes.advance(context, fluid, list_places.span(), diagnostics);
+  planes.advance(context, fluid, list_places.span(), diagnostics, ordering.outlets());
+  const bool fed = feed();
   ordering.sort(fluid, departed);
   check_departure();
   if (walls.any()) ordering.sort(wall);
   build_lists();
-  if (exact_yield()) viscous.exact_yield().follow({fluid_list, wall_list, fluid.id, wall.id}, start_count);
+  if (exact_yield()) viscous.exact_yield().follow({fluid_list, wall_list, fluid.id, wall.id}, next_id());
+  // Columns have stepped back: their pressures are those of other places.
+  if (fed) extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   list_places.copy_from(fluid.place);
   if (walls.any()) wall_list_places.copy_from(wall.place);
   list_time = time;
   displacement = 0;
   last.reset();
   ++builds;
+}
+
+// What the inlets have brought since the last time. Whether there was any.
+bool Simulation::State::feed() {
+  if (!inlets.any()) return false;
+  const Index before = fluid.count;
+  const FedParticles fed = inlets.feed(time, last_dt, wall, fluids.span(), flow, next_id(), fluid);
+  if (fed.position.empty()) return false;
+  planes.add(fed.position);
+  given += energy_from(context, before, fluid, fluids.span(), setup, diagnostics);
+  inlets.place({time, dt, last_dt}, wall);
+  return true;
+}
+
+double Simulation::State::fed_mass() const {
+  const std::vector<std::int64_t> fed = inlets.fed();
+  double mass = 0;
+  for (std::size_t k = 0; k < fed.size(); ++k)
+    mass += static_cast<double>(fed[k]) * particle_mass(setup, setup.inlets[k].fluid);
+  return mass;
 }
 
 void Simulation::State::build_lists() {
@@ -162,7 +195,8 @@ void Simulation::State::build_lists() {
 // The walls as they were when the lists were built, in the same order.
 void Simulation::State::restore_walls() {
   if (!walls.any()) return;
-  walls.place({list_time, dt, 0}, wall);
+  inlets.fed_at(list_time);
+  walls.place({list_time, dt, 0}, wall), inlets.place({list_time, dt, 0}, wall);
   ordering.sort(wall);
   wall_list_places.copy_from(wall.place);
 }
@@ -175,7 +209,7 @@ void Simulation::State::rebuild_lists_as_saved() {
   build_lists();
   fluid.place.swap(list_places);
   if (exact_yield())
-    viscous.exact_yield().take_restored({fluid_list, wall_list, fluid.id, wall.id}, start_count);
+    viscous.exact_yield().take_restored({fluid_list, wall_list, fluid.id, wall.id}, next_id());
 }
 
 void Simulation::State::check_departure() const {
@@ -189,12 +223,11 @@ void Simulation::State::check_departure() const {
 
 bool Simulation::State::lists_hold() {
   Section timer(context, "list age");
-  if (walls.vanishes(list_time, time)) return false;
+  if (walls.vanishes(list_time, time) || inlets.overdue(time)) return false;
   if (last && !walls.any()) return ListAge::lists_hold(*last, reach);
   return list_age.lists_hold(
       {ordering.fluid_sources(fluid), list_places.span(), displacement},
-      {ordering.wall_sources(wall), wall_list_places.span(), walls.largest_displacement(list_time, time)},
-      reach);
+      {ordering.wall_sources(wall), wall_list_places.span(), largest_wall_displacement()}, reach);
 }
 
 PairContext Simulation::State::pairs() const {
@@ -213,7 +246,7 @@ void Simulation::State::look() {
   const WallWork work = wall_work();
   watch.look(fluid, fluids.span(),
              {time, dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
-              last ? last->given : 0, steps, left},
+              last ? last->given : 0, steps, left, inlets.all_fed(), fed_mass()},
              diagnostics);
 }
 

@@ -21,6 +21,18 @@ Totals Simulation::totals() {
       t.departed[face] += s.departed[kind][face];
       t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
     }
+  t.mass_fed = s.fed_mass(), t.fed = s.inlets.fed();
+  for (std::size_t k = 0; k < t.fed.size(); ++k)
+    t.fed_mass.push_back(static_cast<double>(t.fed[k]) * particle_mass(s.setup, s.setup.inlets[k].fluid));
+  for (std::size_t k = 0; k < s.setup.outlets.size(); ++k) {
+    t.removed.push_back(0), t.removed_mass.push_back(0);
+    for (std::size_t kind = 0; kind < s.departed.size(); ++kind) {
+      const std::int64_t count = s.ordering.removed[k * s.departed.size() + kind];
+      t.removed.back() += count;
+      t.removed_mass.back() += static_cast<double>(count) * particle_mass(s.setup, kind);
+    }
+    t.mass_left += t.removed_mass.back();
+  }
   t.impulse_time = s.time - 0.5 * s.last_dt;
   if (s.setup.measure_walls)
     for (std::size_t body = 0; body < s.setup.bodies.size(); ++body) {
@@ -29,10 +41,16 @@ Totals Simulation::totals() {
       load.pressure_torque += cross(s.setup.domain.lower, load.pressure);
       load.viscous_torque += cross(s.setup.domain.lower, load.viscous);
     }
-  // What left through the face beyond a front's plane has passed it.
+  // What left through the face, or an outlet, beyond a front's plane has passed it.
   for (std::size_t k = 0; k < t.fronts.size(); ++k) {
     const FrontSetup& front = s.setup.fronts[k];
     t.fronts[k].passed += t.departed[2 * static_cast<std::size_t>(front.axis) + (front.sign > 0 ? 1U : 0U)];
+    for (std::size_t o = 0; o < s.setup.outlets.size(); ++o) {
+      const OutletSetup& outlet = s.setup.outlets[o];
+      const bool beyond = front.sign > 0 ? outlet.lower[front.axis] >= front.position
+                                         : outlet.upper[front.axis] <= front.position;
+      if (beyond) t.fronts[k].passed += t.removed[o];
+    }
   }
   t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
   for (const BoxSetup& box : s.setup.boxes)

@@ -30,7 +30,7 @@ struct StateTransfer::Data {
   std::vector<SideCopy::Part> parts;
   std::vector<const void*> buffers;       // whose contents the parts are
   const Simulation::State* of = nullptr;  // null: nothing is under way
-  double time = 0;
+  double time = 0, list_time = 0;
   Reading what{};
   std::size_t fluid = 0, walls = 0;  // particles
 
@@ -117,7 +117,9 @@ void StateTransfer::Data::put(WallSnapshot& out) const {
   for (std::size_t k = 0; k < by_id.size(); ++k) {
     const std::uint8_t body = w.body[k];
     if (of->walls.removed(body, time)) continue;
-    out.position.push_back(of->walls.position_at(w.position[k], body, time));
+    out.position.push_back(of->inlets.any() && of->inlets.is_column(k)
+                               ? of->inlets.position_at(k, time, list_time)
+                               : of->walls.position_at(w.position[k], body, time));
     out.pressure.push_back(by_id[k]), out.body.push_back(body);
   }
 }
@@ -132,7 +134,7 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
                      s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{}});
   const Buffer<Real>& thickness = s.sheets.measure(s.pairs());
   StateTransfer::Data& data = *transfer.data_;
-  data.what = what, data.time = s.time;
+  data.what = what, data.time = s.time, data.list_time = s.list_time;
   data.fluid = static_cast<std::size_t>(n), data.walls = static_cast<std::size_t>(s.wall.count);
   data.parts.clear(), data.buffers.clear();
   data.add_shown(s.fluid), data.add(s.scratch), data.add(thickness), data.add(s.yielded);

@@ -16,6 +16,7 @@
 #include "observation/sheets.hpp"
 #include "observation/wall_forces.hpp"
 #include "observation/watch.hpp"
+#include "openings/inlets.hpp"
 #include "pressure/density.hpp"
 #include "simulation/simulation.hpp"
 #include "viscosity/viscous.hpp"
@@ -35,6 +36,7 @@ struct Simulation::State {
   FluidArrays fluid;
   WallArrays wall;
   MovingWalls walls;
+  Inlets inlets;
   Ordering ordering;
   NeighbourList fluid_list, wall_list, wall_to_fluid;
   ListAge list_age;
@@ -60,7 +62,7 @@ struct Simulation::State {
   std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
   PeakCompression largest_compression;
   double start_mass = 0;
-  Index start_count = 0;  // more than any id
+  Index start_count = 0;  // more than any id of the start
   DepartureCounts departed;
   SolveReport report;
   SolverTotals solver;
@@ -72,6 +74,13 @@ struct Simulation::State {
   void upload_fluid();
   void upload_walls();
   void rebuild();
+  double largest_wall_displacement() const {
+    return larger(walls.largest_displacement(list_time, time), inlets.largest_displacement(list_time, time));
+  }
+  void place_walls();
+  bool feed();
+  Index next_id() const { return start_count + static_cast<Index>(inlets.all_fed()); }
+  double fed_mass() const;
   void build_lists();
   void restore_walls();
   void rebuild_lists_as_saved();

@@ -9,16 +9,17 @@ namespace slagflow {
 
 void Simulation::step() {
   State& s = *state_;
-  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);
+  s.place_walls();
   if (!s.lists_hold()) {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
-    const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics), s.walls.largest_speed());
+    const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics),
+                                larger(s.walls.largest_speed(), s.inlets.largest_speed()));
     s.full_dt =
         smaller(stable_time_step(s.setup), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
   s.choose_time_step();
-  s.walls.place({s.time, s.dt, s.last_dt}, s.wall);  // with the velocities of this step
+  s.place_walls();  // with the velocities of this step
   if (s.fluid.count > 0) {
     s.last = s.solve_and_move();
     s.taken += s.last->taken, s.given += s.last->given;
@@ -33,6 +34,10 @@ void Simulation::step() {
   ++s.steps;
   const bool too_dense = s.last && s.last->compression > s.setup.limits.max_compression;
   if (too_dense || s.steps % s.setup.limits.interval == 0) s.look();
+}
+
+void Simulation::State::place_walls() {
+  walls.place({time, dt, last_dt}, wall), inlets.place({time, dt, last_dt}, wall);
 }
 
 // The device goes on to the end of the step before the host looks, once; mostly the solve has converged.

@@ -79,7 +79,8 @@ void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
   origin_ = setup.domain.lower;
   motion_.clear();
   for (const WallBody& body : setup.bodies) motion_.push_back(body.motion);
-  any_ = std::any_of(motion_.begin(), motion_.end(), [](const WallMotion& m) { return m.moves(); });
+  any_ = std::any_of(motion_.begin(), motion_.end(), [](const WallMotion& m) { return m.moves(); }) ||
+         !setup.inlets.empty();
   radius_.assign(setup.bodies.size(), 0);
   std::vector<Vec3d> position(n);
   std::vector<Quad> place(n), normal(n), back(n), velocity(n);

@@ -29,7 +29,7 @@ class MovingWalls {
   // Puts the walls of a setup where they are at the start, in the order of ids.
   void upload(const SimulationSetup&, WallArrays&);
 
-  // Whether any wall ever moves or vanishes.
+  // Whether any wall ever moves or vanishes, those of inlets included.
   bool any() const { return any_; }
   // Whether a wall vanishes between two times, the first excluded.
   bool vanishes(double after, double until) const;

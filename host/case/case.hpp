@@ -94,6 +94,36 @@ struct WallSpec {
   std::vector<ShapeSpec> shapes, subtract;
 };
 
+enum class InletFace { rectangle, disc, annulus, stl };
+enum class InletFeed { velocity, volume_flow, mass_flow };
+enum class InletProfile { plug, developed };
+
+// A face that fluid comes through.
+struct InletSpec {
+  std::string name;
+  int fluid = 0;  // index into Case::fluids
+  InletFace face = InletFace::rectangle;
+  Vec3d center, normal;  // [m]; the way the fluid goes, of any length
+  Vec3d up;              // along the height; 0: as much upwards as normal allows
+  double width = 0, height = 0, radius = 0, inner_radius = 0;  // [m]
+  StlSpec stl;
+  InletFeed feed = InletFeed::velocity;
+  double value = 0;                            // [m/s], [m^3/s] or [kg/s], where there are no rows
+  std::vector<std::array<double, 2>> rows;     // [s] and the same
+  double start = 0, stop = WallMotion::never;  // [s]
+  InletProfile profile = InletProfile::plug;
+};
+
+enum class OutletShape { box, plane };
+
+struct OutletSpec {
+  std::string name;
+  OutletShape shape = OutletShape::box;
+  Vec3d min, max;       // [m] of a box
+  Direction direction;  // of a plane: all beyond it this way
+  double position = 0;  // [m] along the direction's axis
+};
+
 struct OutputSpec {
   double end_time = 0;          // [s], time steps are cut to meet it
   double until = 0;             // [s] the run ends with the first step at or after it; 0: at end_time
@@ -139,6 +169,8 @@ struct Case {
   std::vector<FluidSpec> fluids;
   std::vector<RegionSpec> regions;
   std::vector<WallSpec> walls;
+  std::vector<InletSpec> inlets;
+  std::vector<OutletSpec> outlets;
   DomainSetup domain;
   std::array<bool, 6> exits{};  // faces -x +x -y +y -z +z that fluid is meant to leave through
   NumericsSetup numerics;       // sound_speed 0: automatic, see BuiltCase::resolved

@@ -216,7 +216,7 @@ bool CaseCataloguer::number_or_rows(const Key& k, double& target, const Range& r
   CatalogueKey found = entry(Form::number_or_rows, k, show(target));
   found.unit = range.unit;
   found.range = range;
-  found.allowed = limits_text(range) + ", or in a suspension " + allowed;
+  found.allowed = limits_text(range) + ", or " + allowed;
   add(std::move(found));
   return false;
 }

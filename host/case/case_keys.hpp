@@ -14,6 +14,7 @@ void describe_fluids(CaseVisitor&, Case&);    // [fluid.NAME]
 void describe_regions(CaseVisitor&, Case&);   // [[region]]
 void describe_walls(CaseVisitor&, Case&);     // [[wall]]
 void describe(CaseVisitor&, WallMotion&);     // wall.motion
+void describe_openings(CaseVisitor&, Case&);  // [[inlet]] [[outlet]]
 void describe_numerics(CaseVisitor&, Case&);  // [numerics]
 void describe(CaseVisitor&, NumericsSetup&);  // inside of it
 void describe(CaseVisitor&, LimitSetup&);     // inside of [limits]
@@ -22,6 +23,11 @@ void describe_measures(CaseVisitor&, Case&);  // [[measure]]
 
 // Lists of shapes; STL files are looked for next to the case file.
 void describe_shapes(CaseVisitor&, const Key&, std::vector<ShapeSpec>&, const std::string& case_file);
+
+void describe_stl(CaseVisitor&, StlSpec&, const std::string& case_file, const std::string& what);
+
+// The key that names one of the case's fluids.
+void describe_fluid_of(CaseVisitor&, const Case&, int& fluid);
 
 // A name that must be plain: whether it is.
 bool describe_name(CaseVisitor&, const Key&, std::string& name);

@@ -24,6 +24,9 @@ std::string toml_string(const std::string& text) {
 }
 
 std::string text_of(double value) { return show(value); }
+std::string text_of(const std::array<double, 2>& row) {
+  return "[" + show(row[0]) + ", " + show(row[1]) + "]";
+}
 std::string text_of(const Vec3d& v) { return "[" + show(v.x) + ", " + show(v.y) + ", " + show(v.z) + "]"; }
 
 template <class T>
@@ -56,8 +59,9 @@ class CaseWriter : public CaseVisitor {
       if (chosen[w]) list += (list.empty() ? "" : ", ") + toml_string(words[w]);
     return assign(k, "[" + list + "]");
   }
-  bool number_or_rows(const Key& k, double& value, const Range& range, Rows&, const std::string&) override {
-    return number(k, value, range);
+  bool number_or_rows(const Key& k, double& value, const Range& range, Rows& rows,
+                      const std::string&) override {
+    return rows.empty() ? number(k, value, range) : assign(k, text_of(rows));
   }
   using CaseVisitor::choice;
   bool choice(const Key& k, int& index, const Words& words) override {

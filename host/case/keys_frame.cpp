@@ -79,6 +79,7 @@ void describe(CaseVisitor& v, Case& c) {
   describe_fluids(v, c);
   describe_regions(v, c);
   describe_walls(v, c);
+  describe_openings(v, c);
   describe_numerics(v, c);
   v.table(key("limits", "what ends a run, see Stopping, resuming, failing"), [&] { describe(v, c.limits); });
   v.table(required("output", "how long, and what is written"), [&] { describe(v, c.output); });

@@ -6,14 +6,6 @@ namespace {
 
 const Words pressure_names{"hydrostatic", "zero"};
 
-void describe_fluid_of(CaseVisitor& v, const Case& c, RegionSpec& region) {
-  Words names;
-  for (const FluidSpec& fluid : c.fluids) names.push_back(fluid.name);
-  Key k = key("fluid", "NAME of a fluid").by_default("the only one");
-  if (names.size() > 1) k.need = Need::required;
-  v.reference(k, region.fluid, names, "a fluid");
-}
-
 void describe_wave(CaseVisitor& v, WaveSpec& wave) {
   v.vector(required("amplitude", "a in a sin(2π k·x + phase)"), wave.amplitude, any_number("m/s"));
   v.vector(required("wave_vector", "k, one over the wavelength"), wave.wave_vector, any_number("1/m"));
@@ -21,7 +13,7 @@ void describe_wave(CaseVisitor& v, WaveSpec& wave) {
 }
 
 void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
-  describe_fluid_of(v, c, region);
+  describe_fluid_of(v, c, region.fluid);
   describe_shapes(v, required("shapes", "the region is their union, less that of subtract; see Shapes"),
                   region.shapes, c.file);
   describe_shapes(v, key("subtract", "what is taken away"), region.subtract, c.file);
@@ -50,7 +42,7 @@ void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
 }  // namespace
 
 void describe_regions(CaseVisitor& v, Case& c) {
-  v.list(required("region", "one or more: where fluid is at the start"), c.regions,
+  v.list(key("region", "where fluid is at the start; without an inlet one or more"), c.regions,
          [&](RegionSpec& region) { describe_region(v, c, region); });
 }
 

@@ -43,23 +43,7 @@ void describe(CaseVisitor& v, SphereSpec& sphere, const std::string&) {
 }
 
 void describe(CaseVisitor& v, StlSpec& stl, const std::string& case_file) {
-  namespace fs = std::filesystem;
-  const bool given =
-      v.text(required("file",
-                      "a closed triangle surface, binary or ASCII; the path is relative to the "
-                      "case file"),
-             stl.file);
-  v.number(key("scale", "length of the file's unit"), stl.scale, above(0, "m"));
-  v.vector(key("translate", "added after scaling"), stl.translate, any_number("m"));
-  if (!given) return;
-  std::error_code failure;
-  const fs::path folder = fs::absolute(fs::path(case_file), failure).parent_path();
-  const fs::path path = (folder / stl.file).lexically_normal();  // an absolute file replaces the folder
-  if (!fs::is_regular_file(path, failure))
-    v.problem("file", "value " + in_quotes(stl.file) +
-                          " is not a file that can be read: allowed: an STL file, " +
-                          "its path relative to the case file");
-  stl.file = path.string();
+  describe_stl(v, stl, case_file, "a closed triangle surface");
 }
 
 template <class Form>
@@ -84,6 +68,23 @@ void describe_shape(CaseVisitor& v, ShapeSpec& shape, const std::string& case_fi
 }
 
 }  // namespace
+
+void describe_stl(CaseVisitor& v, StlSpec& stl, const std::string& case_file, const std::string& what) {
+  namespace fs = std::filesystem;
+  const bool given =
+      v.text(required("file", what + ", binary or ASCII; the path is relative to the case file"), stl.file);
+  v.number(key("scale", "length of the file's unit"), stl.scale, above(0, "m"));
+  v.vector(key("translate", "added after scaling"), stl.translate, any_number("m"));
+  if (!given) return;
+  std::error_code failure;
+  const fs::path folder = fs::absolute(fs::path(case_file), failure).parent_path();
+  const fs::path path = (folder / stl.file).lexically_normal();  // an absolute file replaces the folder
+  if (!fs::is_regular_file(path, failure))
+    v.problem("file", "value " + in_quotes(stl.file) +
+                          " is not a file that can be read: allowed: an STL file, " +
+                          "its path relative to the case file");
+  stl.file = path.string();
+}
 
 void describe_shapes(CaseVisitor& v, const Key& k, std::vector<ShapeSpec>& shapes,
                      const std::string& case_file) {

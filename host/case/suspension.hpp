@@ -32,7 +32,8 @@ Range fractions(const Suspension& law);
 // A yield stress over the solid fraction: linear between rows [phi, tau], 0 below the first.
 using YieldRows = std::vector<std::array<double, 2>>;
 inline constexpr const char* yield_rows_allowed =
-    "rows [solid fraction from 0 to below 1, yield stress >= 0 in Pa], the fraction increasing";
+    "in a suspension rows [solid fraction from 0 to below 1, yield stress >= 0 in Pa], the fraction "
+    "increasing";
 
 // What is wrong with the rows, and what is allowed; empty: nothing.
 std::string fault_of(const YieldRows& rows, const SuspensionSpec& suspension);

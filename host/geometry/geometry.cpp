@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "backend/error.hpp"
+#include "host/geometry/inlets.hpp"
 #include "host/geometry/region_fields.hpp"
 #include "host/geometry/region_survey.hpp"
 #include "host/geometry/start_pressure.hpp"
@@ -26,7 +27,8 @@ constexpr std::size_t room_check = 1 << 20;  // particles between looks at the m
 
 class Filler {
  public:
-  explicit Filler(const Case& c) : c_(c), lattice_(c), solids_(c), survey_(c, lattice_, solids_) {
+  explicit Filler(const Case& c)
+      : c_(c), lattice_(c), solids_(c), survey_(c, lattice_, solids_), inlets_(c, columns()) {
     steps_ = steps_by_length();
     body_.assign(lattice_.size(), 0);
     flags_.assign(lattice_.size(), 0);
@@ -45,12 +47,21 @@ class Filler {
     result_.fluid.pressure = start_pressure(c_, *sites, result_.fluid, region_);
     result_.sites = sites;
     result_.region = std::move(region_);
+    result_.inlets = inlets_.inlets();
+    warn_of_openings(c_, result_.inlets, result_.warnings);
     return std::move(result_);
   }
 
  private:
   // Bits of flags_. open << (axis + 1): within the layers of an open site, along this axis and those before.
   static constexpr int fluid = 1, open = 2, sees_open = open << 3;
+
+  std::vector<InletColumns> columns() const {
+    std::vector<InletColumns> columns;
+    for (std::size_t k = 0; k < c_.inlets.size(); ++k)
+      columns.push_back(inlet_columns(c_, k, lattice_, solids_));
+    return columns;
+  }
 
   // Of walls that share a site the first has it; one at rest goes before one that moves and may uncover it.
   void mark_walls() {
@@ -109,7 +120,7 @@ class Filler {
     const std::size_t at = lattice_.linear(s);
     if (body_[at] != 0) ++sites.in_walls, ++sites.in_wall[body_[at] - std::size_t{1}];
     if (flags_[at] & fluid) ++sites.in_earlier_regions;
-    return body_[at] == 0 && !(flags_[at] & fluid);
+    return body_[at] == 0 && !(flags_[at] & fluid) && !inlets_.holds(lattice_.position(s));
   }
 
   // Where the sites are.
@@ -240,6 +251,7 @@ class Filler {
       if (body_[at] == 0 || !(flags_[at] & sees_open) || !company(body_[at] - std::size_t{1})) return;
       const auto body = static_cast<std::uint8_t>(body_[at] - 1);
       const Vec3d p = lattice_.position(s);
+      if (inlets_.holds(p)) return;
       const WallFace face = faces.of(p, body, nearest_open(s, p));
       if (face.depth == 0) return survey_.dropped(p, body);
       check_room();
@@ -327,6 +339,7 @@ class Filler {
   Lattice lattice_;
   WallSolids solids_;
   WallSurvey survey_;
+  InletSpace inlets_;
   std::vector<std::uint8_t> body_;     // per site: 0, or index of the wall + 1
   std::vector<std::uint8_t> flags_;    // per site
   std::vector<std::size_t> site_;      // of each fluid particle
@@ -338,6 +351,11 @@ class Filler {
 };
 
 }  // namespace
+
+Filling::Filling() = default;
+Filling::~Filling() = default;
+Filling::Filling(Filling&&) noexcept = default;
+Filling& Filling::operator=(Filling&&) noexcept = default;
 
 Filling fill(const Case& c) { return Filler(c).run(); }
 

@@ -121,12 +121,20 @@ class WallFaces {
 
 class StartSites;
 
+struct InletColumns;
+
 struct Filling {
   FluidParticles fluid;
   WallParticles walls;
   std::shared_ptr<const StartSites> sites;  // who has which site of the lattice
   std::vector<std::uint32_t> region;        // of each fluid particle
+  std::vector<InletColumns> inlets;
   std::vector<std::string> warnings;
+
+  Filling();
+  ~Filling();
+  Filling(Filling&&) noexcept;
+  Filling& operator=(Filling&&) noexcept;
 };
 
 // Places all particles of a case. Fluid sites are in a region, in no earlier region and in no wall, and moved

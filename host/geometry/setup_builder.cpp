@@ -6,6 +6,7 @@
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/enclosed.hpp"
 #include "host/geometry/geometry.hpp"
+#include "host/geometry/inlets.hpp"
 #include "host/geometry/settling.hpp"
 #include "host/geometry/setup_warnings.hpp"
 #include "host/geometry/slips.hpp"
@@ -90,7 +91,7 @@ BuiltCase build_setup(const Case& c) {
   built.sound_speed_terms = sound_speed_terms(c, filling);
   if (!(c.numerics.sound_speed > 0))
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
-  const bool closed = !has_free_surface(c, filling);
+  const bool closed = c.inlets.empty() && c.outlets.empty() && !has_free_surface(c, filling);
   if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, closed);
   add_background(built, filling, closed);
   warn_of_settling(built.resolved, filling, built.warnings);
@@ -110,6 +111,7 @@ BuiltCase build_setup(const Case& c) {
   for (const WallSpec& wall : c.walls)
     setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.tension_limit,
                             wall.surface, wall.motion});
+  add_openings(c, filling.inlets, setup);
   setup.domain = c.domain;
   setup.end_time = c.output.end_time;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;

@@ -15,7 +15,7 @@ namespace {
 void warn_of_fast_walls(const std::vector<double>& speeds, const SimulationSetup& setup,
                         std::vector<std::string>& warnings) {
   constexpr double fast = 0.2;  // of the sound speed
-  for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+  for (std::size_t b = 0; b < speeds.size(); ++b)
     if (speeds[b] > fast * setup.numerics.sound_speed)
       warnings.push_back("wall '" + setup.bodies[b].name + "' moves at up to " + std::to_string(speeds[b]) +
                          " m/s: numerics.sound_speed, " + std::to_string(setup.numerics.sound_speed) +
@@ -25,8 +25,11 @@ void warn_of_fast_walls(const std::vector<double>& speeds, const SimulationSetup
 void warn_of_unused_fluids(const Case& c, std::vector<std::string>& warnings) {
   for (std::size_t f = 0; f < c.fluids.size(); ++f) {
     const auto has_it = [&](const RegionSpec& r) { return static_cast<std::size_t>(r.fluid) == f; };
-    if (std::none_of(c.regions.begin(), c.regions.end(), has_it))
-      warnings.push_back("fluid '" + c.fluids[f].name + "' is in no region: the case does not use it");
+    const auto feeds_it = [&](const InletSpec& in) { return static_cast<std::size_t>(in.fluid) == f; };
+    if (std::none_of(c.regions.begin(), c.regions.end(), has_it) &&
+        std::none_of(c.inlets.begin(), c.inlets.end(), feeds_it))
+      warnings.push_back("fluid '" + c.fluids[f].name +
+                         "' is in no region and no inlet: the case does not use it");
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "backend/error.hpp"
+#include "host/geometry/inlets.hpp"
 #include "host/measures/measure_force.hpp"
 #include "host/measures/measure_front.hpp"
 #include "host/measures/measure_volume.hpp"
@@ -16,8 +17,10 @@ struct Counts {
   std::size_t fronts = 0, planes = 0, boxes = 0, lines = 0;
 };
 
-std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationSetup& setup, Counts& next) {
-  const double particles = static_cast<double>(std::max<std::size_t>(setup.particles.position.size(), 1));
+std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationSetup& setup, std::int64_t fed,
+                                      Counts& next) {
+  const auto all = static_cast<std::int64_t>(setup.particles.position.size()) + fed;
+  const double particles = static_cast<double>(std::max<std::int64_t>(all, 1));
   const double dx = setup.spacing, volume = setup.dimensions == 2 ? dx * dx : dx * dx * dx;
   switch (spec.type) {
     case MeasureType::jet: {
@@ -50,7 +53,9 @@ std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationS
 
 Measures::Measures(const Case& c, const SimulationSetup& setup) {
   Counts next;
-  for (const MeasureSpec& spec : c.measures) measures_.push_back(make_measure(spec, setup, next));
+  const std::int64_t fed =
+      fed_particles(setup, c.output.last_time()) - fed_particles(setup, setup.start_time);
+  for (const MeasureSpec& spec : c.measures) measures_.push_back(make_measure(spec, setup, fed, next));
 }
 
 std::vector<std::string> Measures::columns() const {

@@ -12,6 +12,7 @@
 #include "fluid/constants.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/geometry.hpp"
+#include "host/geometry/inlets.hpp"
 #include "host/measures/losses.hpp"
 
 namespace slagflow {
@@ -34,8 +35,23 @@ double extent(const SimulationSetup& setup, Vec3d along) {
   return high - low + setup.spacing;
 }
 
-// Depth along gravity and the smaller width across it.
+// The side of a square as large as a column of an inlet is wide, times the number of columns.
+double face_width(const SimulationSetup& setup) {
+  double most = 0;
+  for (const InletSetup& in : setup.inlets) {
+    const double area =
+        std::pow(setup.spacing, setup.dimensions) / in.stride * static_cast<double>(in.share.size());
+    most = std::max(most, setup.dimensions == 2 ? area : std::sqrt(area));
+  }
+  return most;
+}
+
+// Depth along gravity and the smaller width across it; of the inlets where there is no fluid yet.
 void add_lengths(CaseCheck& check, const SimulationSetup& setup) {
+  if (setup.particles.position.empty()) {
+    check.width = check.depth = face_width(setup);
+    return;
+  }
   const double g = norm(setup.gravity);
   check.width = std::numeric_limits<double>::infinity();
   int down = -1;
@@ -55,10 +71,12 @@ void add_lengths(CaseCheck& check, const SimulationSetup& setup) {
 void add_speed(CaseCheck& check, const BuiltCase& built) {
   double fastest = 0;
   for (const Vec3d& v : built.setup.particles.velocity) fastest = std::max(fastest, norm(v));
+  for (const InletSetup& in : built.setup.inlets)
+    fastest = std::max(fastest, in.rate.fastest() * *std::max_element(in.share.begin(), in.share.end()));
   const double fall = built.sound_speed_terms.empty() ? std::sqrt(2 * norm(built.setup.gravity) * check.depth)
                                                       : built.sound_speed_terms.front().speed;
   check.speed = std::max(fall, fastest);
-  check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start";
+  check.speed_source = fall >= fastest ? "sqrt(2 g H)" : "largest speed at the start and from inlets";
 }
 
 // The parameter that plays a role; 0 where there is none.
@@ -179,10 +197,27 @@ std::string duration(double seconds) {
   return seconds < 7200 ? format("%.0f min", seconds / 60) : format("%.1f h", seconds / 3600);
 }
 
+// What comes through an inlet.
+std::string inlet_text(const SimulationSetup& setup, const InletSetup& in, double last) {
+  const double area =
+      std::pow(setup.spacing, setup.dimensions) / in.stride * static_cast<double>(in.share.size());
+  const double fastest = in.rate.fastest(), flow = fastest * area;
+  const bool flat = setup.dimensions == 2;
+  return format("inlet %-10s %zu columns, %.4g %s; up to %.4g m/s, %.4g %s, %.4g kg/s%s; %.6g kg to the end",
+                in.name.c_str(), in.share.size(), area, flat ? "m high" : "m^2", fastest, flow,
+                flat ? "m^2/s" : "m^3/s", flow * setup.fluids[in.fluid].rest_density,
+                flat ? " a metre of width" : "",
+                area * setup.fluids[in.fluid].rest_density *
+                    (in.rate.travelled(last) - in.rate.travelled(setup.start_time)));
+}
+
 std::string number(double value) { return std::isnan(value) ? "-" : format("%.4g", value); }
 
-double memory_of(const SimulationSetup& setup) {
-  return bytes_per_fluid_particle * static_cast<double>(setup.particles.position.size()) +
+// With all that inlets bring, of which nothing may have left.
+double memory_of(const SimulationSetup& setup, double last_time) {
+  const auto fed =
+      static_cast<double>(fed_particles(setup, last_time) - fed_particles(setup, setup.start_time));
+  return bytes_per_fluid_particle * (static_cast<double>(setup.particles.position.size()) + fed) +
          bytes_per_wall_particle * static_cast<double>(setup.walls.position.size());
 }
 
@@ -190,7 +225,7 @@ double memory_of(const SimulationSetup& setup) {
 
 void require_memory(const BuiltCase& built, double available) {
   const SimulationSetup& setup = built.setup;
-  const double needed = memory_of(setup);
+  const double needed = memory_of(setup, built.resolved.output.last_time());
   if (needed <= available) return;
   const char* key = "resolution.spacing";
   throw InputError(built.resolved.place_of(key) + ": key '" + key + "': value " + show(setup.spacing) +
@@ -217,10 +252,13 @@ CaseCheck check_case(const BuiltCase& built) {
   check.mach = check.speed / check.sound_speed;
   check.exits = exits_text(built.resolved);
   const auto fluid = static_cast<double>(check.fluid_particles);
-  check.memory = memory_of(setup);
+  const double last = built.resolved.output.last_time();
+  check.memory = memory_of(setup, last);
+  check.fed = fed_particles(setup, last) - fed_particles(setup, setup.start_time);
+  for (const InletSetup& in : setup.inlets) check.inlets.push_back(inlet_text(setup, in, last));
   check.exact_yield = setup.numerics.yield == YieldModel::exact;
-  check.run_time =
-      check.steps * fluid / particle_steps_per_second * (check.exact_yield ? exact_yield_cost : 1);
+  check.run_time = check.steps * (fluid + 0.5 * static_cast<double>(check.fed)) / particle_steps_per_second *
+                   (check.exact_yield ? exact_yield_cost : 1);
   add_warnings(check, built);
   return check;
 }
@@ -229,6 +267,7 @@ std::string to_text(const CaseCheck& c) {
   std::string text;
   text += format("particles        %lld fluid, %lld wall\n", static_cast<long long>(c.fluid_particles),
                  static_cast<long long>(c.wall_particles));
+  for (const std::string& inlet : c.inlets) text += inlet + "\n";
   text += format("spacing          %.4g m, support radius h %.4g m\n", c.spacing, c.support_radius);
   text += format("time step        %.4g s, limited by %s\n", c.time_step, c.time_step_reason.c_str());
   text += format("steps            %.0f to the end time\n", c.steps);

@@ -40,6 +40,8 @@ struct CaseCheck {
   std::vector<std::string> sound_speeds;  // a line for each term of the automatic one
   double viscosity_correction = 0;        // C of equation (7)
   std::string exits;                      // of the domain, and what becomes of fluid that leaves elsewhere
+  std::int64_t fed = 0;                   // particles that inlets bring to the end
+  std::vector<std::string> inlets;        // a line each
   double memory = 0;                      // [bytes]
   double run_time = 0;                    // [s]
   bool exact_yield = false;

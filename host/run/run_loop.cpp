@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include "backend/error.hpp"
@@ -66,7 +67,8 @@ Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
       history_due_(built_.resolved.output.history_interval),
       start_time_(built_.setup.start_time),
       measures_(built_.resolved, built_.setup),
-      losses_(built_.resolved) {
+      losses_(built_.resolved),
+      openings_(built_.resolved, built_.setup) {
   counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
   counts_.walls = static_cast<std::int64_t>(built_.setup.walls.position.size());
   particles_now_ = counts_.particles_start;
@@ -147,6 +149,7 @@ void Run::start() {
 
 void Run::open_outputs() {
   std::vector<std::string> columns = history_columns();
+  for (const std::string& name : openings_.columns()) columns.push_back(name);
   for (const std::string& name : measures_.columns()) columns.push_back(name);
   const std::string history = folder_ + "/history.csv";
   const SnapshotSizes sizes{static_cast<std::size_t>(counts_.particles_start),
@@ -178,8 +181,8 @@ RunStatus Run::loop() {
       log_.warning("interrupted at " + std::to_string(time) + " s");
       return RunStatus::interrupted;
     }
-    // Nothing brings fluid into a domain.
-    if (simulation.particles() == 0) return end_early("all fluid has left the domain and none can come");
+    if (simulation.particles() == 0 && !openings_.feeds_after(time))
+      return end_early("all fluid has left the domain and none can come");
     if (checkpoint_due()) try_to_save_checkpoint();
     simulation.step();
     counts_.particle_steps += particles_now_;
@@ -213,6 +216,7 @@ void Run::record() {
   losses_.look(*simulation_);
   thin_sheets_.look(totals, simulation_->time());
   std::vector<double> values = history_values(*simulation_, totals);
+  for (const double value : openings_.values(totals)) values.push_back(value);
   const auto read = [this]() -> const FluidSnapshot& {
     simulation_->read(measured_);
     return measured_;
@@ -313,11 +317,17 @@ void Run::tell_compression() {
                ") keeps it below " + show(much));
 }
 
+// Of the start, and what has come in since.
+std::int64_t Run::all_particles(const Totals& totals) const {
+  return std::accumulate(totals.fed.begin(), totals.fed.end(), counts_.particles_start);
+}
+
 void Run::tell_losses() {
   if (!ended_early_.empty()) tell({"ended early: " + ended_early_});
   if (!simulation_) return;
   try {
-    const std::int64_t start = counts_.particles_start;
+    tell(openings_.lines(totals()));
+    const std::int64_t start = all_particles(totals());
     tell(losses_.lines(totals(), start));
     for (const std::string& warning : losses_.warnings(totals(), start)) log_.warning(warning);
     tell(thin_sheets_.lines(built_.resolved, start));
@@ -351,7 +361,7 @@ void Run::write_summary() {
   Json summary = summary_of_case(built_.resolved, provenance_, counts_);
   try {
     if (simulation_) add_results(summary, *simulation_, totals(), counts_);
-    if (simulation_) losses_.add_to(summary, totals());
+    if (simulation_) losses_.add_to(summary, totals()), openings_.add_to(summary, totals());
     thin_sheets_.add_to(summary);
   } catch (const std::exception& error) {
     log_.warning(std::string("the summary lacks the results: ") + error.what());

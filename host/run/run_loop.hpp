@@ -9,6 +9,7 @@
 #include "host/geometry/setup_builder.hpp"
 #include "host/measures/losses.hpp"
 #include "host/measures/measures.hpp"
+#include "host/measures/openings.hpp"
 #include "host/measures/profiles.hpp"
 #include "host/measures/thin_sheets.hpp"
 #include "host/output/checkpoint_store.hpp"
@@ -68,6 +69,7 @@ class Run {
   void end_outputs();
   void tell_compression();
   void tell_losses();
+  std::int64_t all_particles(const Totals&) const;
   void save_last_state();
   void fail(const std::string& reason);
   void write_summary();
@@ -97,6 +99,7 @@ class Run {
   std::int64_t totals_step_ = -1;  // of those
   Measures measures_;
   Losses losses_;
+  Openings openings_;
   ThinSheets thin_sheets_;
   std::string ended_early_;  // why, if it did
   std::optional<Checkpoint> resumed_;

@@ -136,6 +136,11 @@ class Result:
         """A field of the last snapshot, such as Fluid: the place of each particle's fluid in the case."""
         return self._folder.fluid.field(name, len(self.times) - 1)
 
+    @property
+    def walls(self):
+        """Snapshots of the wall particles."""
+        return self._folder.walls
+
     def ordered(self, time):
         """Positions in the snapshot nearest to a time, in the order of the particles at the start."""
         step = int(np.argmin(np.abs(self.times - time)))

@@ -1,0 +1,389 @@
+#include "host/geometry/inlets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "backend/error.hpp"
+#include "fluid/constants.hpp"
+#include "host/case/toml_reader.hpp"
+#include "host/geometry/inlet_profile.hpp"
+#include "host/geometry/stl.hpp"
+
+namespace slagflow {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double nearest_wall = 0.25;  // [spacings] that a column keeps from walls
+constexpr double taken = 0.6;          // [spacings] around a column that is its own
+constexpr double flat = 1e-3;          // of its size, that a patch may be bent
+
+Vec3d unit(Vec3d v) { return v * (1 / norm(v)); }
+
+// Coordinates over the face: p = center + a u + b v.
+struct Frame {
+  Vec3d center, normal, u, v;
+  double a(Vec3d p) const { return dot(p - center, u); }
+  double b(Vec3d p) const { return dot(p - center, v); }
+  Vec3d at(double x, double y) const { return center + x * u + y * v; }
+};
+
+// The face: whether it holds a place, and its area.
+struct Face {
+  Frame frame;
+  double half_a = 0, half_b = 0;  // [m] extent to either side
+  double area = 0;                // [m^2], a height [m] with two dimensions
+  std::function<bool(double, double)> holds;
+};
+
+bool along_axis(Vec3d v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > (1 - 1e-9) * norm(v);
+}
+
+// v as near to `up` as the normal allows.
+Frame frame_of(const Case& c, Vec3d center, Vec3d normal, Vec3d up) {
+  Frame f{center, unit(normal), {}, {}};
+  if (c.dimensions == 2) {
+    f.center.y = 0;
+    f.u = {0, 1, 0}, f.v = cross(f.normal, f.u);
+    return f;
+  }
+  const auto square = [&](Vec3d way) { return way - dot(way, f.normal) * f.normal; };
+  Vec3d v = square(up);
+  if (!(norm(v) > 1e-6 * norm(up))) v = square({0, 0, 1});
+  if (!(norm(v) > 1e-6)) v = square({1, 0, 0});
+  f.v = unit(v), f.u = cross(f.v, f.normal);
+  return f;
+}
+
+[[noreturn]] void refuse(const Case& c, std::size_t inlet, const std::string& key, const std::string& what) {
+  const std::string path = "inlet." + std::to_string(inlet) + (key.empty() ? "" : "." + key);
+  throw InputError(c.place_of(path) + ": key '" + path + "': " + what);
+}
+
+double side(Vec3d a, Vec3d b, Vec3d p, Vec3d normal) { return dot(cross(b - a, p - a), normal); }
+
+// Inside or on the edge, whichever way round the triangle goes.
+bool in_triangle(const Triangle& t, Vec3d p, Vec3d normal) {
+  const double s[] = {side(t[0], t[1], p, normal), side(t[1], t[2], p, normal), side(t[2], t[0], p, normal)};
+  return (s[0] >= 0 && s[1] >= 0 && s[2] >= 0) || (s[0] <= 0 && s[1] <= 0 && s[2] <= 0);
+}
+
+Face patch_face(const Case& c, std::size_t inlet) {
+  const InletSpec& spec = c.inlets[inlet];
+  std::vector<Triangle> triangles = read_stl(spec.stl.file);
+  Vec3d low{1e300, 1e300, 1e300}, high = -1.0 * low;
+  for (Triangle& t : triangles)
+    for (Vec3d& p : t) {
+      p = spec.stl.scale * p + spec.stl.translate;
+      for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+    }
+  Face face;
+  face.frame = frame_of(c, 0.5 * (low + high), spec.normal, {});
+  const Vec3d n = face.frame.normal;
+  double furthest = 0;
+  for (const Triangle& t : triangles) {
+    face.area += 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
+    for (const Vec3d& p : t) {
+      furthest = std::max(furthest, std::abs(dot(p - triangles[0][0], n)));
+      face.half_a = std::max(face.half_a, std::abs(face.frame.a(p)));
+      face.half_b = std::max(face.half_b, std::abs(face.frame.b(p)));
+    }
+  }
+  face.frame.center += dot(triangles[0][0] - face.frame.center, n) * n;
+  if (furthest > flat * norm(high - low))
+    refuse(c, inlet, "file",
+           "its triangles lie up to " + show(furthest) +
+               " m beside a plane square to normal: allowed: a flat patch, and the normal of its plane");
+  const Frame frame = face.frame;
+  face.holds = [triangles, frame](double a, double b) {
+    return std::any_of(triangles.begin(), triangles.end(),
+                       [&](const Triangle& t) { return in_triangle(t, frame.at(a, b), frame.normal); });
+  };
+  return face;
+}
+
+Face face_of(const Case& c, std::size_t inlet) {
+  const InletSpec& spec = c.inlets[inlet];
+  if (spec.face == InletFace::stl) return patch_face(c, inlet);
+  Face face;
+  face.frame = frame_of(c, spec.center, spec.normal, spec.up);
+  if (spec.face == InletFace::rectangle) {
+    face.half_a = 0.5 * spec.width, face.half_b = 0.5 * spec.height;
+    face.area = spec.height * (c.dimensions == 2 ? 1 : spec.width);
+    return face;
+  }
+  const double outer = spec.radius, inner = spec.face == InletFace::annulus ? spec.inner_radius : 0;
+  face.half_a = face.half_b = outer;
+  face.area = pi * (outer * outer - inner * inner);
+  face.holds = [inner, outer](double a, double b) {
+    const double r2 = a * a + b * b;
+    return r2 < outer * outer && r2 >= inner * inner;
+  };
+  return face;
+}
+
+// Places over the face and the area of each.
+struct Sites {
+  std::vector<std::array<double, 2>> place;
+  double area = 0;
+};
+
+// Evenly between the edges.
+Sites rectangle_sites(const Case& c, const Face& face) {
+  const auto along = [&](double half) { return std::max(1L, std::lround(2 * half / c.spacing)); };
+  const long na = c.dimensions == 2 ? 1 : along(face.half_a), nb = along(face.half_b);
+  Sites sites;
+  for (long j = 0; j < nb; ++j)
+    for (long i = 0; i < na; ++i)
+      sites.place.push_back(
+          {(2 * (static_cast<double>(i) + 0.5) / static_cast<double>(na) - 1) *
+               (c.dimensions == 2 ? 0 : face.half_a),
+           (2 * (static_cast<double>(j) + 0.5) / static_cast<double>(nb) - 1) * face.half_b});
+  sites.area = face.area / static_cast<double>(na * nb);
+  return sites;
+}
+
+// A square grid with a point at (a, b).
+std::vector<std::array<double, 2>> grid_sites(const Face& face, double a, double b, double spacing) {
+  std::vector<std::array<double, 2>> places;
+  const auto first = [&](double at, double half) { return at - spacing * std::ceil((at + half) / spacing); };
+  for (double y = first(b, face.half_b); y <= face.half_b + spacing; y += spacing)
+    for (double x = first(a, face.half_a); x <= face.half_a + spacing; x += spacing)
+      if (face.holds(x, y)) places.push_back({x, y});
+  return places;
+}
+
+// On the lattice where the face lies along it; else so that the number comes nearest to the area.
+Sites grid_sites(const Case& c, const Face& face, const Lattice& lattice) {
+  const double dx = c.spacing, wanted = face.area / (dx * dx);
+  const Vec3d site = lattice.position({0, 0, 0});
+  Sites sites;
+  if (along_axis(face.frame.normal) && along_axis(face.frame.v)) {
+    sites.place = grid_sites(face, face.frame.a(site), face.frame.b(site), dx);
+  } else {
+    double best = std::numeric_limits<double>::infinity();
+    for (const double phase : {0.0, 0.5}) {
+      auto places = grid_sites(face, phase * dx, phase * dx, dx);
+      const double off = std::abs(static_cast<double>(places.size()) - wanted);
+      if (off < best) best = off, sites.place = std::move(places);
+    }
+  }
+  sites.area = sites.place.empty() ? 0 : face.area / static_cast<double>(sites.place.size());
+  return sites;
+}
+
+double fastest_flow(const InletSpec& spec) {
+  double most = spec.rows.empty() ? spec.value : 0;
+  for (const auto& row : spec.rows) most = std::max(most, row[1]);
+  return most;
+}
+
+// [m/s] that a unit of what is given makes over an area.
+double speed_of_unit(const Case& c, const InletSpec& spec, double area) {
+  const double density = c.fluids[static_cast<std::size_t>(spec.fluid)].density;
+  switch (spec.feed) {
+    case InletFeed::velocity:
+      return 1;
+    case InletFeed::volume_flow:
+      return 1 / area;
+    default:
+      return 1 / (density * area);
+  }
+}
+
+// Speed over its mean, of a place over the face.
+std::function<double(double, double)> shares(const Case& c, const InletSpec& spec, const Face& face,
+                                             double mean) {
+  if (spec.profile == InletProfile::plug || !(mean > 0)) return [](double, double) { return 1.0; };
+  const Rheology law = c.fluids[static_cast<std::size_t>(spec.fluid)].law();
+  if (spec.face == InletFace::rectangle) {
+    const bool over_b = c.dimensions == 2 || face.half_b <= face.half_a;
+    const SpeedShare share = developed_slot(law, 2 * (over_b ? face.half_b : face.half_a), mean);
+    return [share, over_b](double a, double b) { return share(over_b ? b : a); };
+  }
+  const SpeedShare share = spec.face == InletFace::annulus
+                               ? developed_annulus(law, spec.inner_radius, spec.radius, mean)
+                               : developed_pipe(law, spec.radius, mean);
+  return [share](double a, double b) { return share(std::sqrt(a * a + b * b)); };
+}
+
+double shorter_way(const Case& c, const InletSpec& spec, const Face& face) {
+  if (c.dimensions == 2) return 2 * face.half_b;
+  if (spec.face == InletFace::annulus) return spec.radius - spec.inner_radius;
+  return 2 * std::min(face.half_a, face.half_b);
+}
+
+bool in_domain(const Case& c, const Lattice& lattice, Vec3d p) {
+  const Vec3d w = lattice.wrapped(p);
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) && !(w[k] >= c.domain.lower[k] && w[k] <= c.domain.upper[k]))
+      return false;
+  return true;
+}
+
+}  // namespace
+
+InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& lattice,
+                           const WallSolids& walls) {
+  const InletSpec& spec = c.inlets[inlet];
+  const Face face = face_of(c, inlet);
+  const Sites sites =
+      spec.face == InletFace::rectangle ? rectangle_sites(c, face) : grid_sites(c, face, lattice);
+  if (sites.place.empty())
+    refuse(c, inlet, "",
+           "its face holds no particle: allowed: a larger face or a smaller resolution.spacing");
+  InletColumns columns;
+  columns.normal = face.frame.normal;
+  columns.stride = std::pow(c.spacing, c.dimensions) / sites.area;
+  columns.across = shorter_way(c, spec, face);
+  const double ratio = columns.stride / c.spacing;
+  if (!(ratio > 0.6 && ratio < 1.6))
+    refuse(c, inlet, "",
+           "its face of " + show(face.area) + (c.dimensions == 2 ? " m" : " m^2") + " holds " +
+               std::to_string(sites.place.size()) +
+               " particles, too few for its size: allowed: a larger face or a smaller resolution.spacing");
+  std::vector<std::array<double, 2>> open;
+  for (const auto& [a, b] : sites.place) {
+    const Vec3d origin = face.frame.at(a, b), first = origin + 0.5 * columns.stride * columns.normal;
+    if (!in_domain(c, lattice, first))
+      refuse(c, inlet, spec.face == InletFace::stl ? "file" : "center",
+             "fluid would come in outside the domain: allowed: a face in it or on its boundary, the normal "
+             "inwards");
+    if (walls.distance(lattice.wrapped(first)) < nearest_wall * c.spacing) {
+      ++columns.blocked;
+      continue;
+    }
+    open.push_back({a, b}), columns.origin.push_back(origin);
+  }
+  if (open.empty())
+    refuse(c, inlet, "", "walls stand before all of its face: allowed: a face that looks into the open");
+  columns.area = sites.area * static_cast<double>(open.size());
+  const double mean = fastest_flow(spec) * speed_of_unit(c, spec, columns.area);
+  if (!(mean > 0)) refuse(c, inlet, "", "feeds nothing: allowed: a flow above 0");
+  const auto share = shares(c, spec, face, mean);
+  double sum = 0;
+  for (const auto& [a, b] : open) {
+    columns.share.push_back(std::max(share(a, b), 0.0));
+    sum += columns.share.back();
+  }
+  for (double& s : columns.share) s *= static_cast<double>(open.size()) / sum;
+  return columns;
+}
+
+FeedRate feed_rate(const Case& c, const InletSpec& spec, double area) {
+  const double unit_speed = speed_of_unit(c, spec, area);
+  FeedRate rate;
+  rate.start = spec.start, rate.stop = spec.stop;
+  if (spec.rows.empty()) {
+    rate.speed = {spec.value * unit_speed};
+    return rate;
+  }
+  rate.time.clear(), rate.speed.clear();
+  for (const auto& [time, value] : spec.rows)
+    rate.time.push_back(time), rate.speed.push_back(value * unit_speed);
+  return rate;
+}
+
+InletSpace::InletSpace(const Case& c, std::vector<InletColumns> inlets)
+    : spacing_(c.spacing), layers_(std::ceil(c.support_ratio)), inlets_(std::move(inlets)) {
+  for (const InletColumns& in : inlets_) {
+    const Vec3d around = (layers_ * in.stride + c.spacing) * Vec3d{1, 1, 1};
+    Box box{in.origin[0], in.origin[0]};
+    for (const Vec3d& p : in.origin)
+      for (int k = 0; k < 3; ++k)
+        box.lower[k] = std::min(box.lower[k], p[k]), box.upper[k] = std::max(box.upper[k], p[k]);
+    boxes_.push_back({box.lower - around, box.upper + around});
+  }
+}
+
+bool InletSpace::Box::holds(Vec3d p) const {
+  for (int k = 0; k < 3; ++k)
+    if (!(p[k] >= lower[k] && p[k] <= upper[k])) return false;
+  return true;
+}
+
+bool InletSpace::holds(const InletColumns& in, Vec3d p) const {
+  return std::any_of(in.origin.begin(), in.origin.end(), [&](const Vec3d& origin) {
+    const Vec3d d = p - origin;
+    const double behind = -dot(d, in.normal);
+    return behind > 0 && behind < layers_ * in.stride + 0.5 * spacing_ &&
+           norm(d + behind * in.normal) < taken * spacing_;
+  });
+}
+
+bool InletSpace::holds(Vec3d p) const {
+  for (std::size_t k = 0; k < inlets_.size(); ++k)
+    if (boxes_[k].holds(p) && holds(inlets_[k], p)) return true;
+  return false;
+}
+
+void add_openings(const Case& c, const std::vector<InletColumns>& inlets, SimulationSetup& setup) {
+  const int layers = inlet_layers(setup);
+  for (std::size_t k = 0; k < inlets.size(); ++k) {
+    const InletColumns& in = inlets[k];
+    InletSetup inlet;
+    inlet.name = c.inlets[k].name;
+    inlet.body = setup.bodies.size();
+    inlet.fluid = static_cast<std::uint8_t>(c.inlets[k].fluid);
+    inlet.normal = in.normal, inlet.stride = in.stride;
+    inlet.origin = in.origin, inlet.share = in.share;
+    inlet.rate = feed_rate(c, c.inlets[k], in.area);
+    WallBody body;
+    body.name = inlet.name;
+    setup.bodies.push_back(body);
+    WallParticles& w = setup.walls;
+    w.back_normal.resize(w.position.size()), w.back_depth.resize(w.position.size());
+    for (const Vec3d& origin : in.origin)
+      for (int layer = 0; layer < layers; ++layer) {
+        const double depth = (layer + 0.5) * in.stride;
+        w.position.push_back(origin - depth * in.normal), w.normal.push_back(in.normal);
+        w.depth.push_back(depth), w.body.push_back(static_cast<std::uint8_t>(inlet.body));
+        w.back_normal.emplace_back(), w.back_depth.push_back(0);
+      }
+    setup.inlets.push_back(inlet);
+  }
+  for (const OutletSpec& spec : c.outlets) {
+    constexpr double far = 1e30;
+    OutletSetup outlet{spec.name, spec.min, spec.max};
+    if (spec.shape == OutletShape::plane) {
+      outlet.lower = {-far, -far, -far}, outlet.upper = {far, far, far};
+      const int axis = spec.direction.axis;
+      (spec.direction.sign > 0 ? outlet.lower : outlet.upper)[axis] = spec.position;
+    }
+    if (c.dimensions == 2) outlet.lower.y = -far, outlet.upper.y = far;
+    setup.outlets.push_back(outlet);
+  }
+}
+
+std::int64_t fed_particles(const SimulationSetup& setup, double time) {
+  std::int64_t count = 0;
+  for (const InletSetup& in : setup.inlets)
+    for (const double share : in.share)
+      count += static_cast<std::int64_t>(share * in.rate.travelled(time) / in.stride);
+  return count;
+}
+
+void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets,
+                      std::vector<std::string>& warnings) {
+  constexpr double least = 5;  // particles over the face
+  char text[200];
+  for (std::size_t k = 0; k < inlets.size(); ++k) {
+    const InletColumns& in = inlets[k];
+    const std::string name = "inlet '" + c.inlets[k].name + "'";
+    if (in.blocked > 0)
+      warnings.push_back(name + ": walls stand before " + std::to_string(in.blocked) + " of " +
+                         std::to_string(in.blocked + in.origin.size()) +
+                         " columns of its face: the flow goes through the others");
+    if (in.across < least * c.spacing) {
+      std::snprintf(text, sizeof text, " is %.2g spacings across at its narrowest: %g and more carry a flow",
+                    in.across / c.spacing, least);
+      warnings.push_back(name + text);
+    }
+    if (c.inlets[k].start >= c.output.last_time())
+      warnings.push_back(name + " starts after the end of the run");
+  }
+}
+
+}  // namespace slagflow
