@@ -34,6 +34,17 @@ struct SphereSpec {
   Vec3d center;       // [m]
   double radius = 0;  // [m]
 };
+// A cone without its tip, or with it.
+struct FrustumSpec {
+  Vec3d start, end;                         // [m] ends of the axis
+  double start_radius = 0, end_radius = 0;  // [m]
+};
+// A polygon, which may have dents, drawn out along an axis.
+struct PrismSpec {
+  int axis = 1;
+  std::vector<std::array<double, 2>> points;  // [m] along the other two axes in the order x, y, z
+  double from = 0, to = 0;                    // [m] along the axis
+};
 struct StlSpec {
   std::string file;  // absolute path
   double scale = 1;  // [m] per unit of the file
@@ -41,9 +52,13 @@ struct StlSpec {
 };
 
 struct ShapeSpec {
-  using Form = std::variant<BoxSpec, PlaneSpec, CylinderSpec, SphereSpec, StlSpec>;
+  using Form = std::variant<BoxSpec, PlaneSpec, CylinderSpec, SphereSpec, StlSpec, FrustumSpec, PrismSpec>;
   Form form;
   bool outside = false;  // everything outside of the form: a container
+  // The form is moved, then turned about `center`.
+  Vec3d move{};    // [m]
+  Vec3d turn{};    // [rad] about the direction of the vector, by its length
+  Vec3d center{};  // [m]
 };
 
 struct FluidSpec {
@@ -71,9 +86,17 @@ struct WaveSpec {
   double phase = 0;   // [rad]
 };
 
+// What a vessel holds when it is filled up to a level.
+struct FillSpec {
+  bool given = false;
+  Vec3d level;  // [m] a point of the surface, which is square to gravity
+  Vec3d from;   // [m] a point in the vessel below it
+};
+
 struct RegionSpec {
-  int fluid = 0;  // index into Case::fluids
-  std::vector<ShapeSpec> shapes, subtract;
+  int fluid = 0;                            // index into Case::fluids
+  std::vector<ShapeSpec> shapes, subtract;  // without shapes it is filled
+  FillSpec fill;
   Vec3d velocity;          // [m/s]
   Vec3d angular_velocity;  // [rad/s], about center
   Vec3d center;            // [m]

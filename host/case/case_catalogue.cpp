@@ -81,6 +81,8 @@ std::string CatalogueKey::type_text() const {
       return "list of numbers";
     case Form::vectors:
       return "list of [x, y, z]";
+    case Form::pairs:
+      return "list of [a, b]";
     case Form::choices:
       return "list of words";
     case Form::number_or_rows:
@@ -198,6 +200,13 @@ bool CaseCataloguer::numbers(const Key& k, std::vector<double>&, const std::stri
 
 bool CaseCataloguer::vectors(const Key& k, std::vector<Vec3d>&, const std::string& allowed) {
   CatalogueKey found = entry(Form::vectors, k, "[]");
+  found.allowed = allowed;
+  add(std::move(found));
+  return false;
+}
+
+bool CaseCataloguer::pairs(const Key& k, Rows&, const std::string& allowed) {
+  CatalogueKey found = entry(Form::pairs, k, "[]");
   found.allowed = allowed;
   add(std::move(found));
   return false;

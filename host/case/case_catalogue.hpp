@@ -16,6 +16,7 @@ enum class Form {
   text,
   numbers,
   vectors,
+  pairs,
   choices,
   number_or_rows,
   choice,
@@ -77,6 +78,7 @@ class CaseCataloguer : public CaseVisitor {
   bool text(const Key&, std::string&) override;
   bool numbers(const Key&, std::vector<double>&, const std::string& allowed) override;
   bool vectors(const Key&, std::vector<Vec3d>&, const std::string& allowed) override;
+  bool pairs(const Key&, Rows&, const std::string& allowed) override;
   bool choices(const Key&, bool* chosen, const Words&, const char* one) override;
   bool number_or_rows(const Key&, double&, const Range&, Rows&, const std::string& allowed) override;
   using CaseVisitor::choice;

@@ -9,6 +9,7 @@
 namespace slagflow {
 
 const std::vector<std::string> axis_names{"x", "y", "z"};
+const std::vector<std::string> face_names{"rectangle", "disc", "annulus", "stl"};
 const std::vector<std::string> direction_names{"-x", "+x", "-y", "+y", "-z", "+z"};
 
 namespace {
@@ -96,15 +97,14 @@ bool in_domain(const Case& c, const Vec3d& point) {
   return true;
 }
 
-void check_volume(const Case& c, std::size_t index, CaseProblems& problems) {
-  const MeasureSpec& measure = c.measures[index];
+void check_box(const Case& c, const std::string& key, const Vec3d& min, const Vec3d& max,
+               CaseProblems& problems) {
   for (int k = 0; k < 3; ++k) {
-    const std::string along = "value " + show(measure.max[k]) + " along " + axis_name(k);
-    if (!(measure.min[k] < measure.max[k]))
-      return problems.add(measure_key(index) + ".max",
-                          along + " is not above min: allowed: > " + show(measure.min[k]) + " [m]");
-    if (measure.max[k] < c.domain.lower[k] || measure.min[k] > c.domain.upper[k])
-      return problems.add(measure_key(index) + ".max",
+    const std::string along = "value " + show(max[k]) + " along " + axis_name(k);
+    if (!(min[k] < max[k]))
+      return problems.add(key + ".max", along + " is not above min: allowed: > " + show(min[k]) + " [m]");
+    if (max[k] < c.domain.lower[k] || min[k] > c.domain.upper[k])
+      return problems.add(key + ".max",
                           along + " makes a box outside of the domain: allowed: a box that meets " +
                               text_of(c.domain.lower) + " to " + text_of(c.domain.upper) + " [m]");
   }
@@ -129,7 +129,7 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
     case MeasureType::jet:
       return check_jet(c, index, problems);
     case MeasureType::volume:
-      return check_volume(c, index, problems);
+      return check_box(c, measure_key(index), c.measures[index].min, c.measures[index].max, problems);
     case MeasureType::profile:
       return check_profile(c, index, problems);
     case MeasureType::force:
@@ -184,6 +184,14 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
       no_y(wave + ".wave_vector", c.regions[r].waves[w].wave_vector.y);
     }
   }
+  for (std::size_t k = 0; k < c.inlets.size(); ++k) {
+    const std::string key = "inlet." + std::to_string(k);
+    if (c.inlets[k].face != InletFace::rectangle)
+      problems.add(key + ".face", "value " +
+                                      in_quotes(face_names[static_cast<std::size_t>(c.inlets[k].face)]) +
+                                      " with two dimensions: allowed: rectangle");
+    no_y(key + ".normal", c.inlets[k].normal.y);
+  }
   for (std::size_t w = 0; w < c.walls.size(); ++w) {
     const std::string key = "wall." + std::to_string(w);
     no_y(key + ".surface_velocity", c.walls[w].surface.velocity.y);
@@ -195,6 +203,36 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
     about_y(key + ".motion.angular_velocity", motion.angular_velocity);
     about_y(key + ".motion.angular_amplitude", motion.angular_amplitude);
     about_y(key + ".motion.axis", motion.axis);
+  }
+}
+
+// An inlet's particles are those of a wall of its name.
+void check_inlet_names(const Case& c, CaseProblems& problems) {
+  for (std::size_t k = 0; k < c.inlets.size(); ++k)
+    for (const WallSpec& wall : c.walls)
+      if (!wall.name.empty() && wall.name == c.inlets[k].name)
+        problems.add("inlet." + std::to_string(k) + ".name",
+                     "value " + in_quotes(wall.name) + " is the name of a wall: allowed: a name of its own");
+}
+
+// Whether any of it is in the domain.
+void check_outlets(const Case& c, CaseProblems& problems) {
+  if (!problems.fine({"domain.min", "domain.max"})) return;
+  for (std::size_t k = 0; k < c.outlets.size(); ++k) {
+    const OutletSpec& out = c.outlets[k];
+    const std::string key = "outlet." + std::to_string(k);
+    if (!problems.fine({key + ".min", key + ".max", key + ".shape", key + ".position"})) continue;
+    if (out.shape == OutletShape::box) {
+      check_box(c, key, out.min, out.max, problems);
+      continue;
+    }
+    const int axis = out.direction.axis;
+    const bool up = out.direction.sign > 0;
+    const double end = up ? c.domain.upper[axis] : c.domain.lower[axis];
+    if (up ? out.position >= end : out.position <= end)
+      problems.add(key + ".position", "value " + show(out.position) +
+                                          " leaves nothing of the domain beyond: allowed: " +
+                                          (up ? "< " : "> ") + show(end) + " [m]");
   }
 }
 
@@ -243,6 +281,8 @@ void check_across_tables(const Case& c, CaseProblems& problems) {
   check_two_dimensions(c, problems);
   check_periodic(c, problems);
   check_exits(c, problems);
+  check_inlet_names(c, problems);
+  check_outlets(c, problems);
   check_measures(c, problems);
   check_stop(c, problems);
   check_tension_limits(c, problems);

@@ -9,17 +9,17 @@ namespace slagflow {
 // All of them, in the order of a resolved case.
 void describe(CaseVisitor&, Case&);
 
-void describe_frame(CaseVisitor&, Case&);     // [case] [resolution] [gravity] [body_force] [domain]
-void describe_fluids(CaseVisitor&, Case&);    // [fluid.NAME]
-void describe_regions(CaseVisitor&, Case&);   // [[region]]
-void describe_walls(CaseVisitor&, Case&);     // [[wall]]
-void describe(CaseVisitor&, WallMotion&);     // wall.motion
-void describe_openings(CaseVisitor&, Case&);  // [[inlet]] [[outlet]]
-void describe_numerics(CaseVisitor&, Case&);  // [numerics]
-void describe(CaseVisitor&, NumericsSetup&);  // inside of it
-void describe(CaseVisitor&, LimitSetup&);     // inside of [limits]
-void describe(CaseVisitor&, OutputSpec&);     // inside of [output]
-void describe_measures(CaseVisitor&, Case&);  // [[measure]]
+void describe_frame(CaseVisitor&, Case&);    // [case] [resolution] [gravity] [body_force] [domain]
+void describe_fluids(CaseVisitor&, Case&);   // [fluid.NAME]
+void describe_regions(CaseVisitor&, Case&);  // [[region]]
+void describe_walls(CaseVisitor&, Case&);    // [[wall]]
+void describe(CaseVisitor&, WallMotion&, const std::string& case_file);  // wall.motion
+void describe_openings(CaseVisitor&, Case&);                             // [[inlet]] [[outlet]]
+void describe_numerics(CaseVisitor&, Case&);                             // [numerics]
+void describe(CaseVisitor&, NumericsSetup&);                             // inside of it
+void describe(CaseVisitor&, LimitSetup&);                                // inside of [limits]
+void describe(CaseVisitor&, OutputSpec&);                                // inside of [output]
+void describe_measures(CaseVisitor&, Case&);                             // [[measure]]
 
 // Lists of shapes; STL files are looked for next to the case file.
 void describe_shapes(CaseVisitor&, const Key&, std::vector<ShapeSpec>&, const std::string& case_file);

@@ -64,6 +64,17 @@ bool CaseReader::vectors(const Key& k, std::vector<Vec3d>& target, const std::st
   return here().read(k.name, target, allowed);
 }
 
+bool CaseReader::pairs(const Key& k, Rows& target, const std::string& allowed) {
+  if (!here().read(k.name, target, allowed, k.need)) return false;
+  for (const auto& row : target)
+    if (!any_number("").holds(row[0]) || !any_number("").holds(row[1])) {
+      problem(k.name,
+              "row [" + show(row[0]) + ", " + show(row[1]) + "] is out of range: allowed: " + allowed);
+      return false;
+    }
+  return true;
+}
+
 bool CaseReader::choices(const Key& k, bool* chosen, const Words& words, const char* one) {
   Words given;
   if (!here().read(k.name, given)) return false;

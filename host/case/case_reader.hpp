@@ -21,6 +21,7 @@ class CaseReader : public CaseVisitor {
   bool text(const Key&, std::string&) override;
   bool numbers(const Key&, std::vector<double>&, const std::string& allowed) override;
   bool vectors(const Key&, std::vector<Vec3d>&, const std::string& allowed) override;
+  bool pairs(const Key&, Rows&, const std::string& allowed) override;
   bool choices(const Key&, bool* chosen, const Words&, const char* one) override;
   bool number_or_rows(const Key&, double&, const Range&, Rows&, const std::string& allowed) override;
   using CaseVisitor::choice;

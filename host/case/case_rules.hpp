@@ -10,6 +10,7 @@
 namespace slagflow {
 
 extern const std::vector<std::string> axis_names, direction_names;  // x y z; -x +x -y +y -z +z
+extern const std::vector<std::string> face_names;                   // in the order of InletFace
 Direction direction_of(int index);                                  // into direction_names
 int index_of(const Direction& direction);
 

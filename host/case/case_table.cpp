@@ -234,9 +234,9 @@ bool CaseTable::read(const char* key, std::vector<std::string>& target) {
   return true;
 }
 
-bool CaseTable::read(const char* key, std::vector<std::array<double, 2>>& target,
-                     const std::string& allowed) {
-  const Toml* value = find(key, Need::optional, allowed);
+bool CaseTable::read(const char* key, std::vector<std::array<double, 2>>& target, const std::string& allowed,
+                     Need need) {
+  const Toml* value = find(key, need, allowed);
   if (!value) return false;
   if (!value->is_array()) return wrong_type(key, *value, allowed);
   std::vector<std::array<double, 2>> rows;

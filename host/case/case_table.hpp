@@ -93,7 +93,8 @@ class CaseTable {
   bool read(const char* key, std::string& target, Need need = Need::optional);
   bool read(const char* key, std::vector<std::string>& target);
   // Rows of two numbers each; `allowed` is for the message.
-  bool read(const char* key, std::vector<std::array<double, 2>>& target, const std::string& allowed);
+  bool read(const char* key, std::vector<std::array<double, 2>>& target, const std::string& allowed,
+            Need need = Need::optional);
   // Whether the key holds a number, be it right or wrong.
   bool holds_number(const char* key);
   bool read(const char* key, std::vector<Vec3d>& target, const std::string& allowed);

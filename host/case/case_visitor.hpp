@@ -57,10 +57,12 @@ class CaseVisitor {
   virtual bool text(const Key&, std::string&) = 0;
   virtual bool numbers(const Key&, std::vector<double>&, const std::string& allowed) = 0;
   virtual bool vectors(const Key&, std::vector<Vec3d>&, const std::string& allowed) = 0;
+  // Rows of two numbers.
+  using Rows = std::vector<std::array<double, 2>>;
+  virtual bool pairs(const Key&, Rows&, const std::string& allowed) = 0;
   // Any of the words, each at most once.
   virtual bool choices(const Key&, bool* chosen, const Words&, const char* one) = 0;
   // A number, or rows of two of them.
-  using Rows = std::vector<std::array<double, 2>>;
   virtual bool number_or_rows(const Key&, double&, const Range&, Rows&, const std::string& allowed) = 0;
 
   // Words. False when what the key says is not known, since it is faulty or missing and required.

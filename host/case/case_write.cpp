@@ -53,6 +53,7 @@ class CaseWriter : public CaseVisitor {
   bool vectors(const Key& k, std::vector<Vec3d>& values, const std::string&) override {
     return !values.empty() && assign(k, text_of(values));
   }
+  bool pairs(const Key& k, Rows& value, const std::string&) override { return assign(k, text_of(value)); }
   bool choices(const Key& k, bool* chosen, const Words& words, const char*) override {
     std::string list;
     for (std::size_t w = 0; w < words.size(); ++w)

@@ -8,7 +8,6 @@
 namespace slagflow {
 namespace {
 
-const Words face_names{"rectangle", "disc", "annulus", "stl"};
 const Words profile_names{"plug", "developed"};
 const Words outlet_names{"box", "plane"};
 const char* const rows_allowed =
@@ -60,8 +59,7 @@ void describe_feed(CaseVisitor& v, InletSpec& inlet) {
 void describe_rectangle(CaseVisitor& v, const Case& c, InletSpec& inlet) {
   Key width = key("width", "across up and normal").by_default("required with three dimensions");
   if (c.dimensions == 3) width.need = Need::required;
-  const auto with =
-      v.only(c.dimensions == 3, {"dimensions = 3"}, "with two dimensions it has a height alone");
+  const auto with = v.only(c.dimensions == 3, {"dimensions = 3"});
   if (with) {
     v.number(width, inlet.width, above(0, "m"));
     v.vector(key("up", "along the height, made square to normal; [0, 0, 0]: as much upwards as that allows"),
@@ -116,13 +114,8 @@ void describe_outlet(CaseVisitor& v, Case& c, OutletSpec& outlet) {
                 outlet_names))
     return;
   if (const auto with = v.only(outlet.shape == OutletShape::box, {"shape", {"box"}})) {
-    const bool low = v.vector(required("min", "lower corner"), outlet.min, any_number("m"));
-    const bool high = v.vector(required("max", "upper corner"), outlet.max, any_number("m"));
-    for (int k = 0; low && high && k < 3; ++k)
-      if (!(outlet.min[k] < outlet.max[k]))
-        v.problem("max", "value " + show(outlet.max[k]) + " along " +
-                             axis_names[static_cast<std::size_t>(k)] + " is not above min: allowed: > " +
-                             show(outlet.min[k]) + " [m]");
+    v.vector(required("min", "lower corner"), outlet.min, any_number("m"));
+    v.vector(required("max", "upper corner"), outlet.max, any_number("m"));
   }
   if (const auto with = v.only(outlet.shape == OutletShape::plane, {"shape", {"plane"}})) {
     int index = index_of(outlet.direction);

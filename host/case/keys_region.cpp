@@ -12,10 +12,32 @@ void describe_wave(CaseVisitor& v, WaveSpec& wave) {
   v.number(key("phase", "of the sine"), wave.phase, any_number("rad"));
 }
 
+// A resolved case tells of it where there is one.
+void describe_fill(CaseVisitor& v, RegionSpec& region) {
+  if (!region.fill.given && !v.takes_defaults()) return;
+  const bool given = v.given({"fill"});
+  v.inline_table(key("fill",
+                     "in place of shapes: all that a pour would fill up to a level, between walls and under "
+                     "earlier regions")
+                     .by_default("none"),
+                 [&] {
+                   v.vector(required("level", "a point of the surface, which is square to gravity"),
+                            region.fill.level, any_number("m"));
+                   v.vector(required("from", "a point below it, in the vessel"), region.fill.from,
+                            any_number("m"));
+                 });
+  region.fill.given = region.fill.given || given;
+}
+
 void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
   describe_fluid_of(v, c, region.fluid);
-  describe_shapes(v, required("shapes", "the region is their union, less that of subtract; see Shapes"),
-                  region.shapes, c.file);
+  describe_fill(v, region);
+  Key shapes = key("shapes", "the region is their union, less that of subtract; see Shapes")
+                   .by_default("required without fill");
+  if (!region.fill.given) shapes.need = Need::required;
+  if (!region.fill.given || v.takes_defaults()) describe_shapes(v, shapes, region.shapes, c.file);
+  if (region.fill.given && !region.shapes.empty())
+    v.problem("fill", "stands beside shapes: allowed: one of them");
   describe_shapes(v, key("subtract", "what is taken away"), region.subtract, c.file);
   v.vector(key("velocity", "at the start"), region.velocity, any_number("m/s"));
   v.vector(key("angular_velocity", "rigid rotation about center, added to velocity"), region.angular_velocity,

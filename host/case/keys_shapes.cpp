@@ -7,7 +7,8 @@
 namespace slagflow {
 namespace {
 
-const Words shape_names{"box", "plane", "cylinder", "sphere", "stl"};  // in the order of ShapeSpec::form
+const Words shape_names{"box", "plane",   "cylinder", "sphere",
+                        "stl", "frustum", "prism"};  // in the order of ShapeSpec::form
 
 void describe(CaseVisitor& v, BoxSpec& box, const std::string&) {
   const bool low = v.vector(required("min", "lower corner"), box.min, any_number("m"));
@@ -46,6 +47,55 @@ void describe(CaseVisitor& v, StlSpec& stl, const std::string& case_file) {
   describe_stl(v, stl, case_file, "a closed triangle surface");
 }
 
+void describe(CaseVisitor& v, FrustumSpec& frustum, const std::string&) {
+  const bool start = v.vector(required("start", "of the axis"), frustum.start, any_number("m"));
+  const bool end = v.vector(required("end", "of the axis"), frustum.end, any_number("m"));
+  if (start && end && !(norm(frustum.end - frustum.start) > 0))
+    v.problem("end", "is the same point as start: allowed: another point");
+  const bool one =
+      v.number(required("start_radius", "at start; 0: a tip"), frustum.start_radius, at_least(0, "m"));
+  const bool other =
+      v.number(required("end_radius", "at end; 0: a tip"), frustum.end_radius, at_least(0, "m"));
+  if (one && other && !(frustum.start_radius + frustum.end_radius > 0))
+    v.problem("end_radius", "value 0 with start_radius 0: allowed: one of them above 0");
+}
+
+// Whether two edges of a polygon cross, neighbours aside.
+bool crosses_itself(const std::vector<std::array<double, 2>>& p) {
+  const auto side = [&](std::size_t a, std::size_t b, std::size_t c) {
+    return (p[b][0] - p[a][0]) * (p[c][1] - p[a][1]) - (p[b][1] - p[a][1]) * (p[c][0] - p[a][0]);
+  };
+  const std::size_t n = p.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = i + 2; k < n; ++k) {
+      if (i == 0 && k == n - 1) continue;
+      const std::size_t a = i, b = (i + 1) % n, c = k, d = (k + 1) % n;
+      if (side(a, b, c) * side(a, b, d) <= 0 && side(c, d, a) * side(c, d, b) <= 0) return true;
+    }
+  return false;
+}
+
+void describe(CaseVisitor& v, PrismSpec& prism, const std::string&) {
+  v.choice(required("along", "the axis that the polygon is drawn out along"), prism.axis, axis_names);
+  const std::string allowed =
+      "at least three corners [m], [x, z] along y, [x, y] along z, [y, z] along x, in their order";
+  if (v.pairs(required("points",
+                       "corners of the polygon, which may have dents, in their order: [x, z] along y, [x, y] "
+                       "along z, [y, z] along x"),
+              prism.points, allowed)) {
+    if (prism.points.size() < 3)
+      v.problem("points", "has " + std::to_string(prism.points.size()) + " corners: allowed: " + allowed);
+    else if (crosses_itself(prism.points))
+      v.problem("points",
+                "makes edges that cross or touch: allowed: corners in their order around the polygon");
+  }
+  const bool from = v.number(required("from", "where it begins along the axis"), prism.from, any_number("m"));
+  const bool to = v.number(required("to", "where it ends along the axis"), prism.to, any_number("m"));
+  if (from && to && !(prism.from < prism.to))
+    v.problem("to",
+              "value " + show(prism.to) + " is not above from: allowed: > " + show(prism.from) + " [m]");
+}
+
 template <class Form>
 void describe_form(CaseVisitor& v, ShapeSpec& shape, int kind, const std::string& case_file) {
   const ShapeSpec::Form form = Form();
@@ -56,6 +106,17 @@ void describe_form(CaseVisitor& v, ShapeSpec& shape, int kind, const std::string
   }
 }
 
+// An STL file has a translate of its own, which comes first as well.
+void describe_place(CaseVisitor& v, ShapeSpec& shape) {
+  const bool stl = std::holds_alternative<StlSpec>(shape.form);
+  if (const auto with = v.only(!stl, {"shape", {"box", "plane", "cylinder", "sphere", "frustum", "prism"}}))
+    v.vector(key("translate", "moves the shape, before it is turned"), shape.move, any_number("m"));
+  v.vector(key("rotate", "turns the shape: the axis, as long as the angle, right-handed"), shape.turn,
+           any_number("rad"));
+  v.vector(key("rotate_about", "a point that the axis of rotate goes through"), shape.center,
+           any_number("m"));
+}
+
 void describe_shape(CaseVisitor& v, ShapeSpec& shape, const std::string& case_file) {
   int kind = static_cast<int>(shape.form.index());
   if (!v.choice(required("shape", "see Shapes"), kind, shape_names)) return;
@@ -64,6 +125,9 @@ void describe_shape(CaseVisitor& v, ShapeSpec& shape, const std::string& case_fi
   describe_form<CylinderSpec>(v, shape, kind, case_file);
   describe_form<SphereSpec>(v, shape, kind, case_file);
   describe_form<StlSpec>(v, shape, kind, case_file);
+  describe_form<FrustumSpec>(v, shape, kind, case_file);
+  describe_form<PrismSpec>(v, shape, kind, case_file);
+  describe_place(v, shape);
   v.flag(key("outside", "everything outside of it: a container"), shape.outside);
 }
 

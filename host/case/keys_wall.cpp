@@ -1,8 +1,10 @@
 // [[wall]]: solid bodies, and how they move.
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 
 #include "host/case/case_keys.hpp"
+#include "host/case/motion_file.hpp"
 
 namespace slagflow {
 namespace {
@@ -65,14 +67,45 @@ void require_one(CaseVisitor& v, std::initializer_list<const char*> keys) {
   v.problem("", "without " + names + " it moves nothing: allowed: one of them, or both");
 }
 
-void describe_rows(CaseVisitor& v, WallMotion& m) {
-  const bool timed = v.numbers(required("time", "of the rows; the first row is zero"), m.time, times_allowed);
+// Rows from a file stand in a resolved case as they were read. Whether they are there, rightly.
+bool describe_motion_file(CaseVisitor& v, WallMotion& m, const std::string& case_file) {
+  std::string name;
+  if (!v.text(key("file",
+                  "a CSV file in place of time, displacement and angle, its path relative to the case file: "
+                  "columns as time_s, x_m, y_m, z_m, angle_rad or angle_deg; it counts from its first row")
+                  .by_default("none")
+                  .shorthand(),
+              name))
+    return false;
+  const std::filesystem::path folder = std::filesystem::absolute(case_file).parent_path();
+  const std::string fault = read_motion_file((folder / name).lexically_normal().string(), m);
+  if (!fault.empty()) v.problem("file", "value " + in_quotes(name) + ": " + fault);
+  for (const char* const other : {"time", "displacement", "angle"})
+    if (v.given({other})) v.problem(other, "stands beside file: allowed: one of them");
+  if (fault.empty()) check_times(v, m.time);
+  return fault.empty();
+}
+
+// Whether times are known.
+bool describe_row_keys(CaseVisitor& v, WallMotion& m) {
+  Key time = key("time", "of the rows; the first row is zero").by_default("required without file");
+  if (!v.given({"file"})) time.need = Need::required;
+  const bool timed = v.numbers(time, m.time, times_allowed);
   if (timed) check_times(v, m.time);
   v.vectors(key("displacement", "one for each time"), m.displacement,
             "a list of [x, y, z] [m], one for each time");
   v.numbers(key("angle", "about axis, one for each time"), m.angle,
             "a list of angles [rad], one for each time");
-  require_one(v, {"displacement", "angle"});
+  if (!v.given({"file"})) require_one(v, {"displacement", "angle"});
+  return timed;
+}
+
+void describe_rows(CaseVisitor& v, WallMotion& m, const std::string& case_file) {
+  const bool from_file = describe_motion_file(v, m, case_file);
+  const std::vector<Vec3d> displacement = m.displacement;
+  const std::vector<double> time = m.time, angle = m.angle;
+  bool timed = describe_row_keys(v, m);
+  if (from_file) m.time = time, m.displacement = displacement, m.angle = angle, timed = true;
   if (m.displacement.empty()) m.displacement.resize(m.time.size());
   if (timed) check_rows(v, m);
   const bool turns = !m.angle.empty();
@@ -119,18 +152,19 @@ void describe_wall(CaseVisitor& v, Case& c, WallSpec& wall) {
   v.number(key("remove_at", "the wall vanishes: a gate that is gone at once").by_default("never"),
            wall.motion.remove_at, at_least(0, "s"));
   v.inline_table(key("motion", "the wall moves as a rigid body, see Motion of walls").by_default("at rest"),
-                 [&] { describe(v, wall.motion); });
+                 [&] { describe(v, wall.motion, c.file); });
   describe_shapes(v, required("shapes", "as of a region"), wall.shapes, c.file);
   describe_shapes(v, key("subtract", "as of a region"), wall.subtract, c.file);
 }
 
 }  // namespace
 
-void describe(CaseVisitor& v, WallMotion& m) {
+void describe(CaseVisitor& v, WallMotion& m, const std::string& case_file) {
   if (!v.choice(required("type", "see Motion of walls"), m.kind, motion_names)) return;
   describe_steady(v, m);
   if (const auto with = v.only(m.kind == MotionKind::sine, {"type", {"sine"}})) describe_sine(v, m);
-  if (const auto with = v.only(m.kind == MotionKind::table, {"type", {"table"}})) describe_rows(v, m);
+  if (const auto with = v.only(m.kind == MotionKind::table, {"type", {"table"}}))
+    describe_rows(v, m, case_file);
   if (const auto with = v.only(m.kind != MotionKind::rest, {"type", {"constant", "ramp", "table", "sine"}})) {
     v.vector(key("center", "of rotation, at the start; it moves along"), m.center, any_number("m"));
     v.number(key("start", "when the motion begins"), m.start, at_least(0, "s"));

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "backend/error.hpp"
+#include "host/geometry/fill_level.hpp"
 #include "host/geometry/inlets.hpp"
 #include "host/geometry/region_fields.hpp"
 #include "host/geometry/region_survey.hpp"
@@ -89,28 +90,44 @@ class Filler {
     const std::size_t first = out.position.size();
     RegionSites sites;
     sites.in_wall.assign(c_.walls.size(), 0);
-    lattice_.visit_inside(
-        [&](Vec3d p) { return solid.distance(p); },
-        [&](const SiteIndex& s, Vec3d p) {
-          if (!is_free(s, sites)) return;
-          const std::optional<Vec3d> place = off_walls(p);
-          if (!place) {
-            ++sites.without_room;
-            return;
-          }
-          flags_[lattice_.linear(s)] |= fluid;
-          check_room();
-          out.position.push_back(region.jitter > 0 ? jittered(*place, region.jitter) : *place);
-          out.velocity.push_back(initial_velocity(region, out.position.back()));
-          site_.push_back(lattice_.linear(s));
-        });
+    const auto take = [&](const SiteIndex& s, Vec3d p) { take_site(region, s, p, sites); };
+    if (region.fill.given)
+      fill_to_level(r, solid, take);
+    else
+      lattice_.visit_inside([&](Vec3d p) { return solid.distance(p); }, take);
     if (out.position.size() == first)
       throw InputError(c_.place_of(key) + ": key '" + key +
                        "': " + reason_without_particle(c_, region, solid, sites));
-    for (std::string& warning : cut_warnings(c_, r, solid, sites))
-      result_.warnings.push_back(std::move(warning));
+    if (!region.fill.given)
+      for (std::string& warning : cut_warnings(c_, r, solid, sites))
+        result_.warnings.push_back(std::move(warning));
     out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
     region_.resize(out.position.size(), static_cast<std::uint32_t>(r));
+  }
+
+  void take_site(const RegionSpec& region, const SiteIndex& s, Vec3d p, RegionSites& sites) {
+    if (!is_free(s, sites)) return;
+    const std::optional<Vec3d> place = off_walls(p);
+    if (!place) {
+      ++sites.without_room;
+      return;
+    }
+    FluidParticles& out = result_.fluid;
+    flags_[lattice_.linear(s)] |= fluid;
+    check_room();
+    out.position.push_back(region.jitter > 0 ? jittered(*place, region.jitter) : *place);
+    out.velocity.push_back(initial_velocity(region, out.position.back()));
+    site_.push_back(lattice_.linear(s));
+  }
+
+  // The sites that a pour would fill, in the order of the lattice.
+  template <class Take>
+  void fill_to_level(std::size_t r, const Solid& without, const Take& take) {
+    const std::vector<bool> filled = flood({c_, lattice_, body_, r});
+    for_all_sites([&](const SiteIndex& s) {
+      const Vec3d p = lattice_.position(s);
+      if (filled[lattice_.linear(s)] && !without.subtracts(p)) take(s, p);
+    });
   }
 
   // Whether a site in the domain is in no wall and no earlier region; counts what it is.

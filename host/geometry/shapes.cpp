@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/geometry/shapes_drawn.hpp"
 #include "host/geometry/stl_surface.hpp"
 
 namespace slagflow {
@@ -71,13 +72,6 @@ class HalfSpace final : public Form {
   Vec3d point_, normal_;
 };
 
-// Any unit vector across the given one.
-Vec3d across(Vec3d axis) {
-  const Vec3d helper = std::abs(axis.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  const Vec3d v = cross(axis, helper);
-  return v * (1 / norm(v));
-}
-
 class Cylinder final : public Form {
  public:
   explicit Cylinder(const CylinderSpec& s)
@@ -125,7 +119,7 @@ class Cylinder final : public Form {
     const double along = dot(p - start_, axis_);
     const Vec3d away = p - start_ - along * axis_;
     const double radius = norm(away);
-    return {along, radius, radius > 1e-12 * radius_ ? away * (1 / radius) : across(axis_)};
+    return {along, radius, radius > 1e-12 * radius_ ? away * (1 / radius) : any_across(axis_)};
   }
 
   Vec3d start_;
@@ -159,6 +153,54 @@ class Sphere final : public Form {
   double radius_;
 };
 
+// A form somewhere else: moved, then turned about a point.
+class Moved final : public Form {
+ public:
+  Moved(std::shared_ptr<const Form> form, const ShapeSpec& s)
+      : form_(std::move(form)),
+        move_(s.move),
+        center_(s.center),
+        turn_(rotation(s.turn)),
+        back_(rotation(-s.turn)) {}
+
+  double distance(Vec3d p) const override { return form_->distance(at_home(p)); }
+
+  Extents extents() const override {
+    const Extents e = form_->extents();
+    if (!std::isfinite(norm(e.lower)) || !std::isfinite(norm(e.upper))) return Extents::endless();
+    Extents all;
+    for (int corner = 0; corner < 8; ++corner)
+      all.add(here({corner & 1 ? e.upper.x : e.lower.x, corner & 2 ? e.upper.y : e.lower.y,
+                    corner & 4 ? e.upper.z : e.lower.z}));
+    return all;
+  }
+
+  void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    bring(feet, [&](std::vector<Foot>& home) { form_->inner_feet(at_home(p), home); });
+  }
+  void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
+    bring(feet, [&](std::vector<Foot>& home) { form_->outer_feet(at_home(p), home); });
+  }
+  void further_feet(Vec3d p, double side, double reach, std::vector<Foot>& feet) const override {
+    bring(feet, [&](std::vector<Foot>& home) { form_->further_feet(at_home(p), side, reach, home); });
+  }
+
+ private:
+  Vec3d here(Vec3d q) const { return center_ + turn_ * (q + move_ - center_); }
+  Vec3d at_home(Vec3d p) const { return center_ + back_ * (p - center_) - move_; }
+
+  template <class Ask>
+  void bring(std::vector<Foot>& feet, const Ask& ask) const {
+    std::vector<Foot> home;
+    ask(home);
+    for (const Foot& foot : home) feet.push_back({here(foot.point), turn_ * foot.normal});
+  }
+
+  std::shared_ptr<const Form> form_;
+  Vec3d move_, center_;
+  Rotation turn_, back_;
+};
+
 struct MakeForm {
   std::shared_ptr<const Form> operator()(const BoxSpec& s) const { return std::make_shared<Box>(s); }
   std::shared_ptr<const Form> operator()(const PlaneSpec& s) const { return std::make_shared<HalfSpace>(s); }
@@ -167,11 +209,17 @@ struct MakeForm {
   }
   std::shared_ptr<const Form> operator()(const SphereSpec& s) const { return std::make_shared<Sphere>(s); }
   std::shared_ptr<const Form> operator()(const StlSpec& s) const { return make_stl_form(s); }
+  std::shared_ptr<const Form> operator()(const FrustumSpec& s) const { return make_frustum(s); }
+  std::shared_ptr<const Form> operator()(const PrismSpec& s) const { return make_prism(s); }
 };
 
 }  // namespace
 
-std::shared_ptr<const Form> make_form(const ShapeSpec& spec) { return std::visit(MakeForm{}, spec.form); }
+std::shared_ptr<const Form> make_form(const ShapeSpec& spec) {
+  auto form = std::visit(MakeForm{}, spec.form);
+  if (norm(spec.move) == 0 && norm(spec.turn) == 0) return form;
+  return std::make_shared<Moved>(std::move(form), spec);
+}
 
 void Shape::feet(Vec3d p, double reach, std::vector<Foot>& feet) const {
   sign_ > 0 ? form_->inner_feet(p, feet) : form_->outer_feet(p, feet);
@@ -187,6 +235,11 @@ double Solid::distance(Vec3d p) const {
   for (const Shape& shape : shapes_) nearest = std::min(nearest, shape.distance(p));
   for (const Shape& limit : limits_) nearest = std::max(nearest, limit.distance(p));
   return nearest;
+}
+
+bool Solid::subtracts(Vec3d p) const {
+  return std::any_of(limits_.begin(), limits_.end(),
+                     [&](const Shape& limit) { return limit.distance(p) > 0; });
 }
 
 Extents Solid::extents() const {

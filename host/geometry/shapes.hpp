@@ -76,6 +76,8 @@ class Solid {
   // As Form::distance.
   double distance(Vec3d p) const;
   bool contains(Vec3d p) const { return distance(p) < 0; }
+  // Whether p is in what is taken away.
+  bool subtracts(Vec3d p) const;
   // Of the union, whatever is taken away.
   Extents extents() const;
   // Of each form alone: those of the union, then those that are taken away.

@@ -80,7 +80,7 @@ class StartSurvey {
         if (part.count++ == 0) part.first = i;
         ++all;
       }
-    if (parts.size() <= c_.regions[r].shapes.size()) return;
+    if (parts.size() <= std::max<std::size_t>(c_.regions[r].shapes.size(), 1)) return;
     std::vector<Part> sorted;
     for (const auto& [piece, part] : parts) sorted.push_back(part);
     std::stable_sort(sorted.begin(), sorted.end(),

@@ -53,6 +53,8 @@ Json value_schema(const CatalogueKey& k) {
       return typed("boolean");
     case Form::numbers:
       return array_schema(number);
+    case Form::pairs:
+      return array_schema(array_schema(number, 2));
     case Form::vectors:
       return array_schema(array_schema(number, 3));
     case Form::number_or_rows:

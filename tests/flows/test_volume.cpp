@@ -28,5 +28,17 @@ TEST(Volume, OfWaterThatFillsAPotStays) {
   EXPECT_NEAR(risen("verification/full_pot.toml", 4), 0, 0.01 * 0.2);
 }
 
+// A jet that a fall has stretched fills no more of a pot than its volume: mean height over half the depth.
+TEST(Volume, OfAJetThatFallsIntoAPotStays) {
+  Flow flow("verification/poured_pot.toml", {"resolution.spacing=0.0075", "inlet.0.radius=0.0225",
+                                             "inlet.0.mass_flow=1.4", "inlet.0.stop=0.9"});
+  flow.run(1.6);
+  const FluidSnapshot s = flow.snapshot();
+  const double width = 0.12;
+  const double depth = static_cast<double>(s.id.size()) * std::pow(flow.setup().spacing, 3) / (width * width);
+  std::printf("mean height %.4f of half the depth %.4f m\n", mean_height(s), depth / 2);
+  EXPECT_NEAR(mean_height(s), 0.5 * depth, 0.04 * 0.5 * depth);
+}
+
 }  // namespace
 }  // namespace slagflow

@@ -86,7 +86,7 @@ const std::vector<Wrong> wrong_cases{
     {22, "quite_another = 1", {"'numerics.quite_another': unknown: allowed: scheme, kernel, viscous_weight"}},
     {14,
      "shapes = [{shape='box', min=[0,0,0], max=[1,1,1], radius=1}]",
-     {"case.toml:14: key 'region.0.shapes.0.radius': unknown: allowed: shape, min, max, outside"}},
+     {"case.toml:14: key 'region.0.shapes.0.radius': unknown: allowed: shape, min, max, translate, rotate"}},
     {29, "position = 0\nlip = [0,0,0]", {"case.toml:30: key 'measure.0.lip': unknown"}},
     {9,
      "rheology = 'newtonian'",

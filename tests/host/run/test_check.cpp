@@ -112,7 +112,7 @@ TEST(CaseCheck, TakesTheSpeedAtTheStartWhereItIsLarger) {
   built.setup.particles.velocity[3] = {0, 3, 4};
   const CaseCheck c = check_case(built);
   EXPECT_DOUBLE_EQ(c.speed, 5);
-  EXPECT_EQ(c.speed_source, "largest speed at the start");
+  EXPECT_EQ(c.speed_source, "largest speed at the start and from inlets");
   EXPECT_THAT(c.warnings, testing::Contains(testing::HasSubstr("Mach number")));
 }
 
