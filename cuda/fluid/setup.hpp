@@ -194,6 +194,7 @@ struct SimulationSetup {
   std::vector<FrontSetup> planes;  // through which the flow is measured, along their sign
   std::vector<BoxSetup> boxes;
   std::vector<LineSetup> lines;
+  std::vector<LineSetup> levels;  // on which the surface is looked for
   bool measure_walls = false;  // the forces on walls; they are known without it where walls move
   bool time_parts = false;     // times each part of a step: a CUDA build launches it kernel by kernel
 };

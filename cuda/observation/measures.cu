@@ -159,6 +159,21 @@ ProfilePoint point_of(const Sample& sample, Vec3d position, double distance) {
 
 }  // namespace
 
+LevelState level_of(const std::vector<ProfilePoint>& line) {
+  constexpr double half = 0.5;
+  LevelState level{std::numeric_limits<double>::quiet_NaN(), 0};
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const ProfilePoint &a = line[k - 1], &b = line[k];
+    const bool from = a.fill >= half, to = b.fill >= half;
+    if (!from && !to) continue;
+    const double length = b.distance - a.distance;
+    const double crossing = from == to ? 0 : (half - a.fill) / (b.fill - a.fill) * length;
+    level.thickness += from && to ? length : from ? crossing : length - crossing;
+    level.surface = to ? b.distance : a.distance + crossing;
+  }
+  return level;
+}
+
 PlaneCounters::PlaneCounters(const SimulationSetup& setup)
     : records(setup.planes.size()),
       planes_(setup.planes),

@@ -69,4 +69,7 @@ struct ProfileSource {
 // surfaces too. Without value (not-a-number) where less than a quarter of the support is filled.
 std::vector<ProfilePoint> measure_profile(Context&, const ProfileSource&, const LineSetup&, Vec3d origin);
 
+// What a profile tells of the surface.
+LevelState level_of(const std::vector<ProfilePoint>&);
+
 }  // namespace slagflow

@@ -42,6 +42,12 @@ struct WallLoad {
   double work = 0;
 };
 
+// Where fluid is on a line, by its fill of a half [m] from the start: the farthest end of fluid, not-a-number
+// without any, and the length in fluid.
+struct LevelState {
+  double surface = 0, thickness = 0;
+};
+
 struct Totals {
   std::int64_t particles = 0;                  // fluid particles in the domain
   std::array<std::int64_t, 6> departed{};      // through -x +x -y +y -z +z
@@ -62,6 +68,7 @@ struct Totals {
   Vec3d angular_momentum;           // [kg m^2/s] about the origin
   std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
   std::vector<PlaneState> planes;   // one per SimulationSetup::planes
+  std::vector<LevelState> levels;   // one per SimulationSetup::levels
   std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
   double impulse_time = 0;          // [s] until which their impulses were gathered: that of the velocities
   std::vector<WallLoad> walls;      // one per SimulationSetup::bodies where SimulationSetup::measure_walls

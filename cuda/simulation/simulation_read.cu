@@ -53,16 +53,19 @@ Totals Simulation::totals() {
     }
   }
   t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
+  for (const LineSetup& line : s.setup.levels) t.levels.push_back(level_of(s.profile(line)));
   for (const BoxSetup& box : s.setup.boxes)
     t.boxes.push_back(count_in_box(s.context, s.fluid, box, s.setup.domain.lower, s.diagnostics));
   return t;
 }
 
 std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
-  State& s = *state_;
-  const ProfileSource source{s.fluid, s.ordering.fluid_sources(s.fluid), s.box, s.flow.smoothing,
-                             s.displacement};
-  return measure_profile(s.context, source, s.setup.lines.at(line), s.setup.domain.lower);
+  return state_->profile(state_->setup.lines.at(line));
+}
+
+std::vector<ProfilePoint> Simulation::State::profile(const LineSetup& line) {
+  const ProfileSource source{fluid, ordering.fluid_sources(fluid), box, flow.smoothing, displacement};
+  return measure_profile(context, source, line, setup.domain.lower);
 }
 
 void Simulation::State::measure_stress(Span<Real> result) {

@@ -105,6 +105,7 @@ struct Simulation::State {
   void add_wall_forces();
   void shift();
   WallWork wall_work();
+  std::vector<ProfilePoint> profile(const LineSetup&);
   void look();
   void check_finite();
   void check_departure() const;

@@ -160,7 +160,7 @@ struct OutputSpec {
   double last_time() const { return until > 0 ? until : end_time; }
 };
 
-enum class MeasureType { front, jet, flow_rate, volume, profile, force };
+enum class MeasureType { front, jet, flow_rate, volume, profile, force, level };
 
 struct MeasureSpec {
   std::string name;
@@ -172,7 +172,7 @@ struct MeasureSpec {
   Direction outward;        // jet: horizontal, away from the wall
   double bottom = 0;        // [m] jet: coordinate along gravity's axis where the leading edge arrives
   Vec3d min, max;           // [m] volume: the box
-  Vec3d start, end;         // [m] profile: the line
+  Vec3d start, end;         // [m] profile, level: the line
   int points = 50;          // profile: on the line, both ends included
   int wall = 0;             // force: index into Case::walls
   Vec3d about;              // [m] force: the point of its torque

@@ -131,6 +131,7 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
     case MeasureType::volume:
       return check_box(c, measure_key(index), c.measures[index].min, c.measures[index].max, problems);
     case MeasureType::profile:
+    case MeasureType::level:
       return check_profile(c, index, problems);
     case MeasureType::force:
       return;

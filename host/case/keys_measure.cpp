@@ -5,7 +5,7 @@
 namespace slagflow {
 namespace {
 
-const Words measure_names{"front", "jet", "flow_rate", "volume", "profile", "force"};
+const Words measure_names{"front", "jet", "flow_rate", "volume", "profile", "force", "level"};
 
 void describe_direction(CaseVisitor& v, const Key& k, Direction& direction) {
   int index = index_of(direction);
@@ -34,9 +34,12 @@ void describe_volume(CaseVisitor& v, MeasureSpec& m) {
   v.vector(required("max", "upper corner of the box"), m.max, any_number("m"));
 }
 
-void describe_profile(CaseVisitor& v, MeasureSpec& m) {
+void describe_line(CaseVisitor& v, MeasureSpec& m) {
   v.vector(required("start", "of the line"), m.start, any_number("m"));
   v.vector(required("end", "of the line"), m.end, any_number("m"));
+}
+
+void describe_profile(CaseVisitor& v, MeasureSpec& m) {
   v.integer(key("points", "on the line, both ends included"), m.points, {2, 10000});
 }
 
@@ -52,6 +55,9 @@ void describe_measure(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   if (!v.choice(required("type", "see Measures"), m.type, measure_names)) return;
   describe_passing(v, m);
   if (const auto with = v.only(m.type == MeasureType::volume, {"type", {"volume"}})) describe_volume(v, m);
+  if (const auto with = v.only(m.type == MeasureType::profile || m.type == MeasureType::level,
+                               {"type", {"profile", "level"}}))
+    describe_line(v, m);
   if (const auto with = v.only(m.type == MeasureType::profile, {"type", {"profile"}})) describe_profile(v, m);
   if (const auto with = v.only(m.type == MeasureType::force, {"type", {"force"}})) describe_force(v, c, m);
 }

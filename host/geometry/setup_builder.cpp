@@ -1,6 +1,7 @@
 #include "host/geometry/setup_builder.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "backend/error.hpp"
 #include "host/case/toml_reader.hpp"
@@ -57,6 +58,12 @@ void add_background(BuiltCase& built, Filling& filling, bool closed) {
   for (double& pressure : filling.fluid.pressure) pressure += background;
 }
 
+// Four points a spacing.
+LineSetup level_line(const Case& c, const MeasureSpec& measure) {
+  const double points = std::ceil(4 * norm(measure.end - measure.start) / c.spacing) + 1;
+  return {measure.start, measure.end, static_cast<int>(std::clamp(points, 2.0, 20000.0))};
+}
+
 // What the simulation measures, by kind, in the order of the case.
 void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& setup) {
   const FrontSetup plane{measure.direction.axis, measure.direction.sign, measure.position};
@@ -71,6 +78,8 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
       return setup.boxes.push_back({measure.min, measure.max});
     case MeasureType::profile:
       return setup.lines.push_back({measure.start, measure.end, measure.points});
+    case MeasureType::level:
+      return setup.levels.push_back(level_line(c, measure));
     case MeasureType::force:
       setup.measure_walls = true;
   }

@@ -104,6 +104,7 @@ void warn_of_missed_plane(const MeasureSpec& measure, std::vector<std::string>& 
         warn("has y from " + show(measure.min.y) + " to " + show(measure.max.y) + " m");
       return;
     case MeasureType::profile:
+    case MeasureType::level:
       if (measure.start.y != 0 || measure.end.y != 0)
         warn("has a line with y = " + show(measure.start.y != 0 ? measure.start.y : measure.end.y) + " m");
       return;

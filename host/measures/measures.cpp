@@ -6,6 +6,7 @@
 #include "host/geometry/inlets.hpp"
 #include "host/measures/measure_force.hpp"
 #include "host/measures/measure_front.hpp"
+#include "host/measures/measure_level.hpp"
 #include "host/measures/measure_volume.hpp"
 #include "host/measures/profiles.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 
 // The setup lists what is measured by kind, in the order of the case; this counts along.
 struct Counts {
-  std::size_t fronts = 0, planes = 0, boxes = 0, lines = 0;
+  std::size_t fronts = 0, planes = 0, boxes = 0, lines = 0, levels = 0;
 };
 
 std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationSetup& setup, std::int64_t fed,
@@ -40,6 +41,8 @@ std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationS
       const auto body = static_cast<std::size_t>(spec.wall);
       return std::make_unique<ForceMeasure>(spec, setup.bodies.at(body).name, setup.dimensions);
     }
+    case MeasureType::level:
+      return std::make_unique<LevelMeasure>(spec, next.levels++);
     case MeasureType::profile:
       return std::make_unique<ProfileMeasure>(spec, setup.lines.at(next.lines++));
     default: {
