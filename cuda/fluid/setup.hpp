@@ -195,8 +195,8 @@ struct SimulationSetup {
   std::vector<BoxSetup> boxes;
   std::vector<LineSetup> lines;
   std::vector<LineSetup> levels;  // on which the surface is looked for
-  bool measure_walls = false;  // the forces on walls; they are known without it where walls move
-  bool time_parts = false;     // times each part of a step: a CUDA build launches it kernel by kernel
+  bool measure_walls = false;     // the forces on walls; they are known without it where walls move
+  bool time_parts = false;        // times each part of a step: a CUDA build launches it kernel by kernel
 };
 
 }  // namespace slagflow
