@@ -108,6 +108,28 @@ class Plot(unittest.TestCase):
         self.assertEqual(done.stdout.strip(), str(self.folder / "oil.png"))
         self.assertEqual((self.folder / "oil.png").read_bytes()[:4], b"\x89PNG")
 
+    def test_draws_a_case_before_it_is_run(self):
+        made = self.folder.parent / "made"
+        made.mkdir()
+        self.make_run([0], [4])
+        case = self.folder.parent / "tank.toml"
+        case.write_text("")
+        program = self.folder.parent / "program"  # leaves the synthetic run where it is told to
+        program.write_text(f"#!/bin/sh\n[ \"$1\" = run ] || exit 2\ncp -r {self.folder} \"$4\"\n")
+        program.chmod(0o755)
+        done = self.run_script(case, "--program", program, "--output", made)
+        self.assertEqual((done.returncode, done.stdout.strip()), (0, str(made / "tank_start.png")), done.stderr)
+        self.assertTrue((made / "tank_start.png").is_file())
+        program.write_text("#!/bin/sh\necho 'error: tank.toml:1: wrong' >&2\nexit 2\n")
+        done = self.run_script(case, "--program", program, "--output", made)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("tank.toml:1: wrong", done.stderr)
+
+    def test_a_run_without_fluid_shows_its_walls(self):
+        self.make_run([0], [0])
+        scene = flow.Scene(RunFolder(self.folder), [0])
+        self.assertEqual(len(scene.walls[0]), 9)
+
     def test_refuses_another_table_than_a_flow_curve(self):
         self.folder.mkdir()
         (self.folder / "oil.csv").write_text("time_s,step\n0,1\n")

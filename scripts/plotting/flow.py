@@ -26,12 +26,14 @@ OBLIQUE = View.oblique(-38, 24)
 
 
 class Scene:
-    """What is shown of a run: the fluid at the start and at some steps, and the walls around it."""
+    """What is shown of a run: the fluid at the start and at some steps, and the walls around it; all walls while there is no
+    fluid yet."""
 
     def __init__(self, run, steps):
         self.run, self.steps, self.spacing = run, steps, run.spacing
         fluid = [run.fluid.positions(step) for step in sorted({0, *steps})]
-        self.fluid = np.concatenate([p for p in fluid if len(p)] or [np.zeros((1, 3))])
+        empty = run.walls.positions(0) if run.walls else np.zeros((1, 3))
+        self.fluid = np.concatenate([p for p in fluid if len(p)] or [empty])
         self.middle = (self.fluid[:, 1].min() + self.fluid[:, 1].max()) / 2
         self.walls = [self._walls_at(step) for step in steps]
 
