@@ -33,6 +33,7 @@ struct Arguments {
   std::string topic;
   HelpForm help = HelpForm::text;
   std::string from;
+  bool json = false;
   std::vector<std::string> overrides;
   RunOptions run;
   RheometryOptions rheometry;
@@ -86,7 +87,12 @@ int resume(Arguments arguments) {
 
 int check(const Arguments& arguments) {
   const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
-  print(arguments.file + ": valid\n" + to_text(check_case(built)));
+  const CaseCheck found = check_case(built);
+  if (arguments.json)
+    print(Json::object().set("case", arguments.file).set("valid", true).set("check", to_json(found)).text() +
+          "\n");
+  else
+    print(arguments.file + ": valid\n" + to_text(found));
   return 0;
 }
 
@@ -256,6 +262,7 @@ int dispatch(int argc, const char* const* argv) {
   CLI::App* const check_command = app.add_subcommand("check", "validate a case and estimate its cost");
   add_case(check_command, arguments)->required();
   add_set(check_command, arguments, set_a_key);
+  check_command->add_flag("--json", arguments.json, "print it as JSON, numbers in SI units");
   CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
   CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);

@@ -294,4 +294,27 @@ std::string to_text(const CaseCheck& c) {
   return text;
 }
 
+Json to_json(const CaseCheck& c) {
+  const auto lines = [](const std::vector<std::string>& all) {
+    Json::Array array;
+    for (const std::string& line : all) array.emplace_back(line);
+    return Json(std::move(array));
+  };
+  Json fluids = Json::object();
+  for (const FluidNumbers& f : c.fluids)
+    fluids.set(f.name, Json::object().set("reynolds", f.reynolds).set("bingham", f.bingham).set("n", f.dam));
+  Json result = Json::object();
+  result.set("fluid_particles", c.fluid_particles).set("wall_particles", c.wall_particles);
+  result.set("fed_particles", c.fed).set("spacing", c.spacing).set("support_radius", c.support_radius);
+  result.set("time_step", c.time_step).set("time_step_reason", c.time_step_reason).set("steps", c.steps);
+  result.set("depth", c.depth).set("width", c.width).set("speed", c.speed);
+  result.set("speed_source", c.speed_source).set("fluids", fluids);
+  result.set("sound_speed", c.sound_speed)
+      .set("mach", c.mach)
+      .set("sound_speed_terms", lines(c.sound_speeds));
+  result.set("viscosity_correction", c.viscosity_correction).set("exits", c.exits);
+  result.set("inlets", lines(c.inlets)).set("memory_bytes", c.memory).set("run_time", c.run_time);
+  return result.set("exact_yield", c.exact_yield).set("warnings", lines(c.warnings));
+}
+
 }  // namespace slagflow

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/geometry/setup_builder.hpp"
+#include "host/output/summary_json.hpp"
 
 namespace slagflow {
 
@@ -55,7 +56,8 @@ CaseCheck check_case(const BuiltCase& built);
 // that. [bytes]
 void require_memory(const BuiltCase& built, double available);
 
-// For people.
+// For people, and for programs: numbers in SI units, by the names above; null where one is not known.
 std::string to_text(const CaseCheck& check);
+Json to_json(const CaseCheck& check);
 
 }  // namespace slagflow

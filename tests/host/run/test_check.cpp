@@ -107,6 +107,17 @@ TEST(CaseCheck, ShowsTheViscosityCorrection) {
   EXPECT_THAT(to_text(c), testing::HasSubstr("corrected by 1.047"));
 }
 
+TEST(CaseCheck, IsToldToProgramsToo) {
+  const CaseCheck c = check_case(block());
+  const Json json = to_json(c);
+  EXPECT_DOUBLE_EQ(json.at("steps").number(), c.steps);
+  EXPECT_DOUBLE_EQ(json.at("fluid_particles").number(), static_cast<double>(c.fluid_particles));
+  EXPECT_DOUBLE_EQ(json.at("run_time").number(), c.run_time);
+  for (const FluidNumbers& f : c.fluids)
+    EXPECT_DOUBLE_EQ(json.at("fluids").at(f.name).at("reynolds").number(), f.reynolds);
+  EXPECT_EQ(json.text().find("nan"), std::string::npos);
+}
+
 TEST(CaseCheck, TakesTheSpeedAtTheStartWhereItIsLarger) {
   BuiltCase built = block();
   built.setup.particles.velocity[3] = {0, 3, 4};
