@@ -135,7 +135,11 @@ void validate(const SimulationSetup& s) {
             "the domain has no extent along axis " + std::string(1, "xyz"[k]));
 }
 
-int inlet_layers(const SimulationSetup& s) { return static_cast<int>(std::ceil(s.support_ratio)); }
+int inlet_moving_rows(const SimulationSetup& s) { return static_cast<int>(std::ceil(s.support_ratio)) + 2; }
+
+int inlet_rows(const SimulationSetup& s) { return 2 * inlet_moving_rows(s) - 2; }
+
+double inlet_row_place(int row, int moving_rows) { return row < moving_rows ? row + 0.5 : row - 1.5; }
 
 double wall_tension_limit(const WallBody& body, const NumericsSetup& n) {
   if (body.tension_limit >= 0) return body.tension_limit;

@@ -27,8 +27,12 @@ bool allows_exact_yield(RheologyKind);
 
 FlowConstants flow_constants(const SimulationSetup&);
 std::vector<FluidConstants> fluid_constants(const SimulationSetup&);
-// Wall particles in a column of an inlet: as many as the support holds.
-int inlet_layers(const SimulationSetup&);
+// Wall particles in a column of an inlet: those that come on with the fluid, two more than the support holds,
+// and behind them, between where the last two come and go, those that stay and hold back what is behind.
+int inlet_moving_rows(const SimulationSetup&);
+int inlet_rows(const SimulationSetup&);
+// [strides] behind the face, of a row while nothing has been fed.
+double inlet_row_place(int row, int moving_rows);
 // Of one particle of fluid `kind` [kg].
 double particle_mass(const SimulationSetup&, std::size_t kind);
 

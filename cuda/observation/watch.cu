@@ -64,14 +64,18 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
         "a speed of " + number(vitals.max_speed) + " m/s; limits.max_speed is " + number(max_speed_) + " m/s",
         speed_squared, "a smaller courant, a larger sound_speed, or thicker walls");
   if (!(vitals.max_compression <= limits.max_compression))
-    fail_at_worst(fluid, now,
-                  "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
-                      "; limits.max_compression is " + number(limits.max_compression),
-                  density_excess,
-                  "numerics.sound_speed = " +
-                      number(stiff_enough(setup_.numerics.sound_speed, vitals.max_compression,
-                                          limits.max_compression)) +
-                      " (it is " + number(setup_.numerics.sound_speed) + " m/s) or a smaller courant");
+    fail_at_worst(
+        fluid, now,
+        "a compression (rho - rho0)/rho0 of " + number(vitals.max_compression) +
+            "; limits.max_compression is " + number(limits.max_compression),
+        density_excess,
+        "numerics.sound_speed = " +
+            number(
+                stiff_enough(setup_.numerics.sound_speed, vitals.max_compression, limits.max_compression)) +
+            " (it is " + number(setup_.numerics.sound_speed) + " m/s) or a smaller courant" +
+            (setup_.inlets.empty() ? ""
+                                   : "; an inlet feeds whatever stands before it: is what it fills full, "
+                                     "or does its face look at a wall?"));
   check_energy(vitals, now);
 }
 

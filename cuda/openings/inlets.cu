@@ -10,7 +10,7 @@ namespace slagflow {
 namespace {
 
 struct PlaceColumns {
-  Index first, layers;
+  Index first, rows, moving_rows;
   double inverse_dt;
   Span<const Inlets::Moment> moments;
   Span<const std::uint8_t> inlet;
@@ -21,25 +21,30 @@ struct PlaceColumns {
 
   HOST_DEVICE void operator()(Index i) const {
     if (id[i] < first) return;
-    const Index column = (id[i] - first) / layers, layer = (id[i] - first) % layers;
+    const Index column = (id[i] - first) / rows, row = (id[i] - first) % rows;
     const Inlets::Moment& m = moments[inlet[column]];
-    const double s = share[column];
-    const double way = s * m.travelled - retreat[column] - (0.5 + layer) * m.stride;
+    const bool moves = row < moving_rows;
+    const double s = moves ? share[column] : 0;
+    const double back = moves ? retreat[column] + (row + 0.5) * m.stride : (row - 1.5) * m.stride;
+    const double way = s * m.travelled - back;
     place[i] = quad(to_real(origin[column] + way * m.normal), 0);
-    velocity[i] = quad(to_real((s * m.gain * inverse_dt) * m.normal), 0);
-    acceleration[i] = quad(to_real((s * m.acceleration) * m.normal), 0);
-    moved[i] = quad(to_real((s * m.gained) * m.normal), 0);
+    // The last two rows that move are felt as at rest, as are those that stay: they only close the way
+    // between.
+    const double felt = row < moving_rows - 2 ? s : 0;
+    velocity[i] = quad(to_real((felt * m.gain * inverse_dt) * m.normal), 0);
+    acceleration[i] = quad(to_real((felt * m.acceleration) * m.normal), 0);
+    moved[i] = quad(to_real((felt * m.gained) * m.normal), 0);
   }
 };
 
 // Pressures of the foremost particles, by column.
 struct TakePressure {
-  Index first, layers;
+  Index first, rows;
   Span<const Index> id;
   Span<const Real> from;
   Span<Real> pressure;
   HOST_DEVICE void operator()(Index i) const {
-    if (id[i] >= first && (id[i] - first) % layers == 0) pressure[(id[i] - first) / layers] = from[i];
+    if (id[i] >= first && (id[i] - first) % rows == 0) pressure[(id[i] - first) / rows] = from[i];
   }
 };
 
@@ -96,7 +101,7 @@ void Inlets::upload(const SimulationSetup& setup) {
   inlets_ = setup.inlets;
   if (!any()) return;
   lower_ = setup.domain.lower;
-  layers_ = static_cast<std::size_t>(inlet_layers(setup));
+  rows_ = static_cast<std::size_t>(inlet_rows(setup)), moving_rows_ = inlet_moving_rows(setup);
   std::vector<Vec3d> origin;
   std::vector<double> share;
   std::vector<std::uint8_t> inlet;
@@ -109,7 +114,7 @@ void Inlets::upload(const SimulationSetup& setup) {
     }
     largest_share_.push_back(*std::max_element(in.share.begin(), in.share.end()));
   }
-  first_wall_ = setup.walls.position.size() - columns_.size() * layers_;
+  first_wall_ = setup.walls.position.size() - columns_.size() * rows_;
   origin_.upload(origin), share_.upload(share), inlet_.upload(inlet);
   pressure_.upload(std::vector<Real>(columns_.size()));
   for (Column& c : columns_) c.rows_at_start = rows_by(c, setup.start_time);
@@ -118,7 +123,7 @@ void Inlets::upload(const SimulationSetup& setup) {
 
 std::int64_t Inlets::rows_by(const Column& c, double time) const {
   const InletSetup& in = inlets_[c.inlet];
-  return static_cast<std::int64_t>(std::floor(c.share * in.rate.travelled(time) / in.stride));
+  return static_cast<std::int64_t>(std::floor(c.share * in.rate.travelled(time) / in.stride + 0.5));
 }
 
 void Inlets::fed_at(double time) {
@@ -154,11 +159,11 @@ void Inlets::place(const WallStep& step, WallArrays& wall) {
     now.push_back(m);
   }
   moment_.upload(now);
-  launch(
-      context_, "place inlets", wall.count,
-      PlaceColumns{static_cast<Index>(first_wall_), static_cast<Index>(layers_), 1 / step.dt, moment_.span(),
-                   inlet_.span(), origin_.span(), share_.span(), retreat_.span(), wall.id.span(),
-                   wall.place.span(), wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
+  launch(context_, "place inlets", wall.count,
+         PlaceColumns{static_cast<Index>(first_wall_), static_cast<Index>(rows_),
+                      static_cast<Index>(moving_rows_), 1 / step.dt, moment_.span(), inlet_.span(),
+                      origin_.span(), share_.span(), retreat_.span(), wall.id.span(),
+                      wall.place.span(), wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
 }
 
 FedParticles Inlets::feed(double now, double last_dt, const WallArrays& wall,
@@ -185,7 +190,7 @@ FedParticles Inlets::feed(double now, double last_dt, const WallArrays& wall,
   upload_rows();
   const Index before = fluid.count;
   launch(context_, "pressures of inlets", wall.count,
-         TakePressure{static_cast<Index>(first_wall_), static_cast<Index>(layers_), wall.id.span(),
+         TakePressure{static_cast<Index>(first_wall_), static_cast<Index>(rows_), wall.id.span(),
                       wall.pressure.span(), pressure_.span()});
   position_.upload(fed.position), motion_.upload(motion), column_.upload(column), kind_.upload(fed.fluid);
   fluid.resize(before + count);
@@ -218,10 +223,14 @@ FedParticles Inlets::feed(double now, double last_dt, const WallArrays& wall,
 }
 
 bool Inlets::overdue(double now) const {
-  return std::any_of(columns_.begin(), columns_.end(), [&](const Column& c) {
+  std::size_t due = 0;
+  for (const Column& c : columns_) {
     const InletSetup& in = inlets_[c.inlet];
-    return c.share * in.rate.travelled(now) > (static_cast<double>(c.rows) + 1.5) * in.stride;
-  });
+    const double ahead = c.share * in.rate.travelled(now) / in.stride - static_cast<double>(c.rows);
+    if (ahead > 1) return true;
+    if (ahead >= 0.5) ++due;
+  }
+  return 4 * due > columns_.size();
 }
 
 std::vector<std::int64_t> Inlets::fed() const {
@@ -238,11 +247,12 @@ std::int64_t Inlets::all_fed() const {
 
 Vec3d Inlets::position_at(std::size_t wall_particle, double time, double list_time) const {
   const std::size_t k = wall_particle - first_wall_;
-  const Column& c = columns_[k / layers_];
+  const Column& c = columns_[k / rows_];
   const InletSetup& in = inlets_[c.inlet];
-  const double way =
-      c.share * in.rate.travelled(time) -
-      (static_cast<double>(rows_by(c, list_time)) + 0.5 + static_cast<double>(k % layers_)) * in.stride;
+  const int row = static_cast<int>(k % rows_);
+  double way = -inlet_row_place(row, moving_rows_) * in.stride;
+  if (row < moving_rows_)
+    way += c.share * in.rate.travelled(time) - static_cast<double>(rows_by(c, list_time)) * in.stride;
   return lower_ + c.origin + way * in.normal;
 }
 

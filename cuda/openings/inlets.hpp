@@ -20,8 +20,8 @@ class Inlets {
  public:
   explicit Inlets(Context&);
 
-  // The wall particles of inlets are the last of the setup's, column by column, the foremost first; `layers`
-  // of them to a column. Their state at the setup's start time.
+  // The wall particles of inlets are the last of the setup's, column by column, the foremost first;
+  // inlet_rows() of them to a column. Their state at the setup's start time.
   void upload(const SimulationSetup&);
 
   bool any() const { return !inlets_.empty(); }
@@ -35,7 +35,7 @@ class Inlets {
   // anew.
   FedParticles feed(double now, double last_dt, const WallArrays&, Span<const FluidConstants>,
                     const FlowConstants&, Index next_id, FluidArrays&);
-  // Whether some column has come on by half a stride more than makes a row: the lists are to be built.
+  // Whether rows of a quarter of the columns are due, or one by half a stride: the lists are to be built.
   bool overdue(double now) const;
   // As if fed at that time, without any fluid: for a restored state, whose lists were built then.
   void fed_at(double time);
@@ -75,8 +75,9 @@ class Inlets {
   Context& context_;
   std::vector<InletSetup> inlets_;
   std::vector<Column> columns_;
-  Vec3d lower_;  // [m] corner of the domain
-  std::size_t first_wall_ = 0, layers_ = 1;
+  Vec3d lower_;                            // [m] corner of the domain
+  std::size_t first_wall_ = 0, rows_ = 1;  // to a column
+  int moving_rows_ = 1;
   double speed_ = 0;
   std::vector<double> largest_share_;  // of each inlet
   Buffer<Moment> moment_;              // of each inlet

@@ -111,8 +111,12 @@ void describe_place(CaseVisitor& v, ShapeSpec& shape) {
   const bool stl = std::holds_alternative<StlSpec>(shape.form);
   if (const auto with = v.only(!stl, {"shape", {"box", "plane", "cylinder", "sphere", "frustum", "prism"}}))
     v.vector(key("translate", "moves the shape, before it is turned"), shape.move, any_number("m"));
-  v.vector(key("rotate", "turns the shape: the axis, as long as the angle, right-handed"), shape.turn,
-           any_number("rad"));
+  constexpr double turn = 6.283185307179586;
+  if (v.vector(key("rotate", "turns the shape: the axis, as long as the angle, right-handed, up to a turn"),
+               shape.turn, any_number("rad")) &&
+      norm(shape.turn) > turn * (1 + 1e-6))
+    v.problem("rotate", "is " + show(norm(shape.turn)) +
+                            " rad long, more than a turn: allowed: up to 2 pi [rad]; 30 degrees are 0.5236");
   v.vector(key("rotate_about", "a point that the axis of rotate goes through"), shape.center,
            any_number("m"));
 }

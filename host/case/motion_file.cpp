@@ -130,6 +130,11 @@ class MotionFile {
 
   std::string row(const std::string& line) {
     const std::vector<std::string> fields = split(line, separator_);
+    for (std::size_t k = columns_.size(); k < fields.size(); ++k)
+      if (!fields[k].empty())
+        return "has " + std::to_string(fields.size()) + " fields, the line of names " +
+               std::to_string(columns_.size()) +
+               ": allowed: as many; with decimal commas semicolons or tabs between";
     double values[kinds] = {};
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (columns_[k].kind < 0) continue;

@@ -49,7 +49,7 @@ class Filler {
     result_.sites = sites;
     result_.region = std::move(region_);
     result_.inlets = inlets_.inlets();
-    warn_of_openings(c_, result_.inlets, result_.warnings);
+    warn_of_openings(c_, result_.inlets, result_.fluid.position, result_.warnings);
     return std::move(result_);
   }
 
@@ -61,6 +61,7 @@ class Filler {
     std::vector<InletColumns> columns;
     for (std::size_t k = 0; k < c_.inlets.size(); ++k)
       columns.push_back(inlet_columns(c_, k, lattice_, solids_));
+    require_apart(c_, columns);
     return columns;
   }
 
@@ -137,7 +138,7 @@ class Filler {
     const std::size_t at = lattice_.linear(s);
     if (body_[at] != 0) ++sites.in_walls, ++sites.in_wall[body_[at] - std::size_t{1}];
     if (flags_[at] & fluid) ++sites.in_earlier_regions;
-    return body_[at] == 0 && !(flags_[at] & fluid) && !inlets_.holds(lattice_.position(s));
+    return body_[at] == 0 && !(flags_[at] & fluid) && !inlets_.holds_fluid(lattice_.position(s));
   }
 
   // Where the sites are.
@@ -268,7 +269,7 @@ class Filler {
       if (body_[at] == 0 || !(flags_[at] & sees_open) || !company(body_[at] - std::size_t{1})) return;
       const auto body = static_cast<std::uint8_t>(body_[at] - 1);
       const Vec3d p = lattice_.position(s);
-      if (inlets_.holds(p)) return;
+      if (inlets_.holds_wall(p)) return;
       const WallFace face = faces.of(p, body, nearest_open(s, p));
       if (face.depth == 0) return survey_.dropped(p, body);
       check_room();

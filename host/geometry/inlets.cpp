@@ -16,7 +16,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double nearest_wall = 0.25;  // [spacings] that a column keeps from walls
-constexpr double taken = 0.6;          // [spacings] around a column that is its own
 constexpr double flat = 1e-3;          // of its size, that a patch may be bent
 
 Vec3d unit(Vec3d v) { return v * (1 / norm(v)); }
@@ -225,6 +224,46 @@ bool in_domain(const Case& c, const Lattice& lattice, Vec3d p) {
 
 }  // namespace
 
+namespace {
+
+// Ways over the face in which the bundle ends at a column: none of its columns is a spacing further.
+std::vector<Vec3d> ends(const Case& c, const Frame& frame, const std::vector<Vec3d>& columns, Vec3d here) {
+  std::vector<Vec3d> open;
+  for (const Vec3d& way : {frame.u, -frame.u, frame.v, -frame.v}) {
+    if (c.dimensions == 2 && std::abs(way.y) > 0.5) continue;
+    const auto beside = [&](const Vec3d& p) {
+      const Vec3d d = p - here;
+      return dot(d, way) > 0.5 * c.spacing && norm(d) < 1.5 * c.spacing &&
+             norm(d - dot(d, way) * way) < 0.5 * c.spacing;
+    };
+    if (std::none_of(columns.begin(), columns.end(), beside)) open.push_back(way);
+  }
+  return open;
+}
+
+// Of a column the nearest end of the bundle beyond which, behind the face, no wall is.
+std::vector<InletColumns::Side> sides_of(const Case& c, const Frame& frame, const std::vector<Vec3d>& columns,
+                                         double stride, const WallSolids& walls) {
+  struct End {
+    Vec3d place, way;
+  };
+  std::vector<End> all;
+  for (const Vec3d& here : columns)
+    for (const Vec3d& way : ends(c, frame, columns, here))
+      if (walls.distance(here + c.spacing * way - 2 * stride * frame.normal) > 0) all.push_back({here, way});
+  std::vector<InletColumns::Side> sides(columns.size());
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    for (const End& end : all) {
+      const Vec3d d = end.place - columns[k];
+      const double depth = dot(d, end.way) + 0.5 * c.spacing;
+      if (depth <= 0 || norm(d - dot(d, end.way) * end.way) > 0.75 * c.spacing) continue;
+      if (sides[k].depth == 0 || depth < sides[k].depth) sides[k] = {end.way, depth};
+    }
+  return sides;
+}
+
+}  // namespace
+
 InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& lattice,
                            const WallSolids& walls) {
   const InletSpec& spec = c.inlets[inlet];
@@ -260,6 +299,7 @@ InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& latt
   if (open.empty())
     refuse(c, inlet, "", "walls stand before all of its face: allowed: a face that looks into the open");
   columns.area = sites.area * static_cast<double>(open.size());
+  columns.side = sides_of(c, face.frame, columns.origin, columns.stride, walls);
   const double mean = fastest_flow(spec) * speed_of_unit(c, spec, columns.area);
   if (!(mean > 0)) refuse(c, inlet, "", "feeds nothing: allowed: a flow above 0");
   const auto share = shares(c, spec, face, mean);
@@ -289,7 +329,7 @@ FeedRate feed_rate(const Case& c, const InletSpec& spec, double area) {
 InletSpace::InletSpace(const Case& c, std::vector<InletColumns> inlets)
     : spacing_(c.spacing), layers_(std::ceil(c.support_ratio)), inlets_(std::move(inlets)) {
   for (const InletColumns& in : inlets_) {
-    const Vec3d around = (layers_ * in.stride + c.spacing) * Vec3d{1, 1, 1};
+    const Vec3d around = (2 * layers_ * in.stride + c.spacing) * Vec3d{1, 1, 1};
     Box box{in.origin[0], in.origin[0]};
     for (const Vec3d& p : in.origin)
       for (int k = 0; k < 3; ++k)
@@ -304,23 +344,23 @@ bool InletSpace::Box::holds(Vec3d p) const {
   return true;
 }
 
-bool InletSpace::holds(const InletColumns& in, Vec3d p) const {
+bool InletSpace::holds(const InletColumns& in, Vec3d p, double around) const {
   return std::any_of(in.origin.begin(), in.origin.end(), [&](const Vec3d& origin) {
     const Vec3d d = p - origin;
     const double behind = -dot(d, in.normal);
-    return behind > 0 && behind < layers_ * in.stride + 0.5 * spacing_ &&
-           norm(d + behind * in.normal) < taken * spacing_;
+    return behind > 0 && behind < 2 * layers_ * in.stride + 0.5 * spacing_ &&
+           norm(d + behind * in.normal) < around * spacing_;
   });
 }
 
-bool InletSpace::holds(Vec3d p) const {
+bool InletSpace::holds(Vec3d p, double around) const {
   for (std::size_t k = 0; k < inlets_.size(); ++k)
-    if (boxes_[k].holds(p) && holds(inlets_[k], p)) return true;
+    if (boxes_[k].holds(p) && holds(inlets_[k], p, around)) return true;
   return false;
 }
 
 void add_openings(const Case& c, const std::vector<InletColumns>& inlets, SimulationSetup& setup) {
-  const int layers = inlet_layers(setup);
+  const int rows = inlet_rows(setup), moving = inlet_moving_rows(setup);
   for (std::size_t k = 0; k < inlets.size(); ++k) {
     const InletColumns& in = inlets[k];
     InletSetup inlet;
@@ -335,11 +375,17 @@ void add_openings(const Case& c, const std::vector<InletColumns>& inlets, Simula
     setup.bodies.push_back(body);
     WallParticles& w = setup.walls;
     w.back_normal.resize(w.position.size()), w.back_depth.resize(w.position.size());
-    for (const Vec3d& origin : in.origin)
-      for (int layer = 0; layer < layers; ++layer) {
-        const double depth = (layer + 0.5) * in.stride;
-        w.position.push_back(origin - depth * in.normal), w.normal.push_back(in.normal);
-        w.depth.push_back(depth), w.body.push_back(static_cast<std::uint8_t>(inlet.body));
+    for (std::size_t column = 0; column < in.origin.size(); ++column)
+      for (int row = 0; row < rows; ++row) {
+        const double behind = inlet_row_place(row, moving) * in.stride, end = (rows - 2) * in.stride;
+        // Those that stay look backwards, and those nearest to a side that fluid comes to look there.
+        Vec3d normal = row < moving ? in.normal : -in.normal;
+        double depth = row < moving ? behind : end - behind;
+        if (in.side[column].depth > 0 && in.side[column].depth < depth)
+          normal = in.side[column].normal, depth = in.side[column].depth;
+        w.position.push_back(in.origin[column] - behind * in.normal);
+        w.normal.push_back(normal), w.depth.push_back(depth);
+        w.body.push_back(static_cast<std::uint8_t>(inlet.body));
         w.back_normal.emplace_back(), w.back_depth.push_back(0);
       }
     setup.inlets.push_back(inlet);
@@ -361,13 +407,64 @@ std::int64_t fed_particles(const SimulationSetup& setup, double time) {
   std::int64_t count = 0;
   for (const InletSetup& in : setup.inlets)
     for (const double share : in.share)
-      count += static_cast<std::int64_t>(share * in.rate.travelled(time) / in.stride);
+      count += static_cast<std::int64_t>(share * in.rate.travelled(time) / in.stride + 0.5);
   return count;
 }
 
-void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets,
+namespace {
+
+// Whether two columns come out of the same place.
+bool meet(const Case& c, const InletColumns& a, const InletColumns& b) {
+  if (dot(a.normal, b.normal) < 0.5) return false;
+  for (const Vec3d& p : a.origin)
+    for (const Vec3d& q : b.origin)
+      if (norm(p - q) < 0.7 * c.spacing) return true;
+  return false;
+}
+
+bool held_by(const Case& c, const OutletSpec& out, Vec3d p) {
+  if (out.shape == OutletShape::plane) return out.direction.sign * (p[out.direction.axis] - out.position) > 0;
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) && !(p[k] >= out.min[k] && p[k] <= out.max[k])) return false;
+  return true;
+}
+
+void warn_of_outlet(const Case& c, const OutletSpec& out, const std::vector<InletColumns>& inlets,
+                    const std::vector<Vec3d>& fluid, std::vector<std::string>& warnings) {
+  constexpr double thin = 4;  // [spacings]
+  const std::string name = "outlet '" + out.name + "'";
+  const auto taken = std::count_if(fluid.begin(), fluid.end(), [&](Vec3d p) { return held_by(c, out, p); });
+  if (taken > 0)
+    warnings.push_back(name + " takes " + std::to_string(taken) + " of " + std::to_string(fluid.size()) +
+                       " particles at the start: they are inside of it");
+  for (std::size_t k = 0; k < inlets.size(); ++k)
+    if (held_by(c, out, inlets[k].origin[0] + 0.5 * inlets[k].stride * inlets[k].normal))
+      warnings.push_back(name + " takes what inlet '" + c.inlets[k].name + "' feeds: it covers its face");
+  if (out.shape == OutletShape::plane) return;
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) && out.max[k] - out.min[k] < thin * c.spacing)
+      return warnings.push_back(name + " is thinner than " + show(thin) +
+                                " spacings: fluid that is fast may pass it between two looks; a plane, or a "
+                                "box that reaches on behind, takes all");
+}
+
+}  // namespace
+
+void require_apart(const Case& c, const std::vector<InletColumns>& inlets) {
+  for (std::size_t a = 0; a < inlets.size(); ++a)
+    for (std::size_t b = a + 1; b < inlets.size(); ++b) {
+      const bool together = c.inlets[a].start < c.inlets[b].stop && c.inlets[b].start < c.inlets[a].stop;
+      if (together && meet(c, inlets[a], inlets[b]))
+        refuse(c, b, "",
+               "feeds where inlet '" + c.inlets[a].name +
+                   "' does: allowed: faces that do not meet, or times, start and stop, that do not");
+    }
+}
+
+void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets, const std::vector<Vec3d>& fluid,
                       std::vector<std::string>& warnings) {
-  constexpr double least = 5;  // particles over the face
+  for (const OutletSpec& out : c.outlets) warn_of_outlet(c, out, inlets, fluid, warnings);
+  constexpr double least = 5, few_rows = 10;  // particles over the face, and one behind the other
   char text[200];
   for (std::size_t k = 0; k < inlets.size(); ++k) {
     const InletColumns& in = inlets[k];
@@ -381,8 +478,15 @@ void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets,
                     in.across / c.spacing, least);
       warnings.push_back(name + text);
     }
-    if (c.inlets[k].start >= c.output.last_time())
+    const double rows = feed_rate(c, c.inlets[k], in.area).travelled(c.output.last_time()) / in.stride;
+    if (c.inlets[k].start >= c.output.last_time()) {
       warnings.push_back(name + " starts after the end of the run");
+    } else if (rows < few_rows) {
+      std::snprintf(
+          text, sizeof text,
+          " brings %.3g rows of particles by the end: it feeds in whole rows, half a row more or less", rows);
+      warnings.push_back(name + text);
+    }
   }
 }
 

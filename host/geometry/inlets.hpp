@@ -14,10 +14,17 @@ struct InletColumns {
   Vec3d normal;               // unit vector, the way the fluid goes
   std::vector<Vec3d> origin;  // [m] where columns go through the face
   std::vector<double> share;  // of each: its speed over their mean
-  double area = 0;            // [m^2] that they fill, with two dimensions a height [m]
-  double stride = 0;          // [m] between the particles of a column: a particle's volume over its area
-  double across = 0;          // [m] the shorter way over the face
-  std::size_t blocked = 0;    // columns that a wall stops at the face
+  // The side of the bundle that is next to each, where fluid may come to it: behind the face the columns are
+  // a body in it. Depth 0: none.
+  struct Side {
+    Vec3d normal;
+    double depth = 0;  // [m]
+  };
+  std::vector<Side> side;
+  double area = 0;          // [m^2] that they fill, with two dimensions a height [m]
+  double stride = 0;        // [m] between the particles of a column: a particle's volume over its area
+  double across = 0;        // [m] the shorter way over the face
+  std::size_t blocked = 0;  // columns that a wall stops at the face
 };
 
 // Places columns over the face a spacing apart: along an axis on the lattice, on a rectangle evenly between
@@ -31,7 +38,9 @@ FeedRate feed_rate(const Case&, const InletSpec&, double area);
 class InletSpace {
  public:
   InletSpace(const Case&, std::vector<InletColumns> inlets);
-  bool holds(Vec3d p) const;
+  // Fluid and walls make room for the columns; of walls what leaves no gap beside them stays.
+  bool holds_fluid(Vec3d p) const { return holds(p, 0.6); }
+  bool holds_wall(Vec3d p) const { return holds(p, 0.3); }
   const std::vector<InletColumns>& inlets() const { return inlets_; }
 
  private:
@@ -39,9 +48,10 @@ class InletSpace {
     Vec3d lower, upper;
     bool holds(Vec3d p) const;
   };
-  bool holds(const InletColumns&, Vec3d p) const;
+  bool holds(Vec3d p, double around) const;  // [spacings] of a column
+  bool holds(const InletColumns&, Vec3d p, double around) const;
 
-  double spacing_, layers_;
+  double spacing_, layers_;  // layers of a wall
   std::vector<InletColumns> inlets_;
   std::vector<Box> boxes_;  // around each
 };
@@ -52,6 +62,11 @@ void add_openings(const Case&, const std::vector<InletColumns>&, SimulationSetup
 // What a setup's inlets bring by a time.
 std::int64_t fed_particles(const SimulationSetup&, double time);
 
-void warn_of_openings(const Case&, const std::vector<InletColumns>&, std::vector<std::string>& warnings);
+// Throws InputError where two inlets feed at one place at one time.
+void require_apart(const Case&, const std::vector<InletColumns>&);
+
+// Fluid: where it is at the start.
+void warn_of_openings(const Case&, const std::vector<InletColumns>&, const std::vector<Vec3d>& fluid,
+                      std::vector<std::string>& warnings);
 
 }  // namespace slagflow

@@ -81,6 +81,30 @@ Case case_with_changes(const FoundCheckpoint& found, const RunOptions& options, 
   }
 }
 
+// Settings that say where the STL files of a case lie: those of the checkpoint may be gone.
+std::vector<std::string> where_files_are(const Case& c) {
+  std::vector<std::string> settings;
+  const auto add = [&](const std::string& key, const StlSpec& stl) {
+    settings.push_back(key + ".file=" + stl.file);
+  };
+  const auto add_shapes = [&](const std::string& key, const std::vector<ShapeSpec>& shapes) {
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+      if (const auto* const stl = std::get_if<StlSpec>(&shapes[k].form))
+        add(key + "." + std::to_string(k), *stl);
+  };
+  for (std::size_t k = 0; k < c.regions.size(); ++k) {
+    add_shapes("region." + std::to_string(k) + ".shapes", c.regions[k].shapes);
+    add_shapes("region." + std::to_string(k) + ".subtract", c.regions[k].subtract);
+  }
+  for (std::size_t k = 0; k < c.walls.size(); ++k) {
+    add_shapes("wall." + std::to_string(k) + ".shapes", c.walls[k].shapes);
+    add_shapes("wall." + std::to_string(k) + ".subtract", c.walls[k].subtract);
+  }
+  for (std::size_t k = 0; k < c.inlets.size(); ++k)
+    if (c.inlets[k].face == InletFace::stl) add("inlet." + std::to_string(k), c.inlets[k].stl);
+  return settings;
+}
+
 std::string moment(const RunRecord& run) {
   std::array<char, 80> text{};
   std::snprintf(text.data(), text.size(), "at %.6g s, step %lld: ", run.time,
@@ -96,8 +120,8 @@ GoingCase going_case(const FoundCheckpoint& found, const RunOptions& options) {
   end_with_end_time(options.changes, c);
   if (options.until) end_at(*options.until, c);
   going.built = build_setup(c);
-  const std::vector<KeyChange> changes =
-      key_changes(parse_case(found.checkpoint.text("case_text"), found.path), going.built.resolved);
+  const std::vector<KeyChange> changes = key_changes(
+      parse_case(found.checkpoint.text("case_text"), found.path, where_files_are(c)), going.built.resolved);
   require_changing(changes, going.built.resolved, options.folder);
   for (const KeyChange& change : changes) {
     const std::string line = moment(found.checkpoint.run) + text_of(change);

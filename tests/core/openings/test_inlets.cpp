@@ -29,13 +29,16 @@ SimulationSetup fed_channel() {
   s.bodies = {{"tap"}};
   InletSetup in;
   in.name = "tap", in.normal = {1, 0, 0}, in.stride = dx, in.rate = steady(0.3);
-  const int layers = inlet_layers(s);
+  const int rows = inlet_rows(s), moving = inlet_moving_rows(s);
   for (int k = 0; k < 7; ++k)
     for (int j = 0; j < 7; ++j) {
       in.origin.push_back({0.02, (j + 0.5) * dx, (k + 0.5) * dx});
       in.share.push_back(1);
-      for (int layer = 0; layer < layers; ++layer)
-        add_wall(s, in.origin.back() - Vec3d{(layer + 0.5) * dx, 0, 0}, {1, 0, 0}, (layer + 0.5) * dx);
+      for (int row = 0; row < rows; ++row) {
+        const double behind = inlet_row_place(row, moving) * dx;
+        add_wall(s, in.origin.back() - Vec3d{behind, 0, 0}, {row < moving ? 1.0 : -1.0, 0, 0},
+                 row < moving ? behind : (rows - 2) * dx - behind);
+      }
     }
   s.inlets = {in};
   s.outlets = {{"end", {0.09, -1, -1}, {1, 1, 1}}};
@@ -178,12 +181,18 @@ TEST(Inlets, WallsShowTheColumnsBehindTheFluid) {
     FluidSnapshot fluid;
     WallSnapshot walls;
     simulation.read(fluid, walls);
-    const auto layers = static_cast<std::size_t>(inlet_layers(s));
-    ASSERT_EQ(walls.position.size(), 49 * layers);
+    const auto rows = static_cast<std::size_t>(inlet_rows(s));
+    const int moving = inlet_moving_rows(s);
+    ASSERT_EQ(walls.position.size(), 49 * rows);
     for (std::size_t k = 0; k < walls.position.size(); ++k) {
-      const double behind = 0.02 - walls.position[k].x;
-      EXPECT_LE(behind, (static_cast<double>(k % layers) + 0.5) * dx + 1e-9);
-      EXPECT_GT(behind, (static_cast<double>(k % layers) - 0.5) * dx - 0.6 * dx);
+      const int row = static_cast<int>(k % rows);
+      const double behind = (0.02 - walls.position[k].x) / dx, home = inlet_row_place(row, moving);
+      if (row >= moving) {
+        EXPECT_NEAR(behind, home, 1e-9);
+      } else {
+        EXPECT_LE(behind, home + 0.5 + 1e-9);
+        EXPECT_GT(behind, home - 1.5);
+      }
     }
   }
 }

@@ -48,6 +48,9 @@ TEST(MotionFile, OtherEditorsWriteItOtherwise) {
 TEST(MotionFile, FaultsAreToldWithTheirLine) {
   EXPECT_EQ(read("time_s,x_m\n0,0\n1,abc\n").fault, "line 3: 'abc' is not a number");
   EXPECT_EQ(read("time_s,x_m\n0,0\n1\n").fault, "line 3: '' is not a number");
+  EXPECT_THAT(read("time_s,angle_deg\n0,0\n1,5,10,5\n").fault,
+              HasSubstr("line 3: has 4 fields, the line of names 2: allowed: as many"));
+  EXPECT_EQ(read("time_s,angle_deg\n0,0,,\n1,5,\n").fault, "");
   EXPECT_THAT(read("time,x_m\n0,0\n").fault, HasSubstr("line 1: has no time with its unit: allowed: a line"));
   EXPECT_THAT(read("time_s,x\n0,0\n").fault,
               HasSubstr("has neither a displacement nor an angle with its unit"));

@@ -201,6 +201,67 @@ TEST(InletFaces, ImpossibleOnesAreRefused) {
               HasSubstr("walls stand before all of its face"));
 }
 
+// At the same time; one after the other is right.
+TEST(InletFaces, TwoAtOnePlaceAreRefused) {
+  InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
+  in.radius = 4;
+  Case c = with(in);
+  c.inlets.push_back(in);
+  c.inlets[1].name = "other";
+  EXPECT_THAT(refusal(c),
+              HasSubstr("key 'inlet.1': feeds where inlet 'spout' does: allowed: faces that do not meet"));
+  c.inlets[0].stop = c.inlets[1].start = 3;
+  EXPECT_EQ(refusal(c), "none");
+  c.inlets[0].stop = WallMotion::never, c.inlets[1].center.x = 30;
+  EXPECT_EQ(refusal(c), "none");
+}
+
+// In the open the columns are a body with sides; in a wall they have none.
+TEST(InletFaces, HaveSidesWhereFluidMayCome) {
+  InletSpec in = inlet(InletFace::rectangle, {20, 20, 20}, {1, 0, 0});
+  in.width = 6, in.height = 6;
+  const InletColumns open = columns_of(with(in)),
+                     held = columns_of(with(in, {wall("end", {box({0, 0, 0}, {20, 40, 40})})}));
+  int sides = 0;
+  for (std::size_t k = 0; k < open.origin.size(); ++k) {
+    const Vec3d off = open.origin[k] - in.center;
+    const double least = 3 - std::max(std::abs(off.y), std::abs(off.z));
+    EXPECT_NEAR(open.side[k].depth, least, 1e-9);
+    EXPECT_NEAR(dot(open.side[k].normal, in.normal), 0, 1e-12);
+    EXPECT_EQ(held.side[k].depth, 0);
+    ++sides;
+  }
+  EXPECT_EQ(sides, 36);
+}
+
+TEST(OutletBoxes, ThatTakeTooMuchOrTooLittleAreWarnedOf) {
+  InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
+  in.radius = 4;
+  Case c = with(in);
+  RegionSpec region;
+  region.shapes = {box({1, 1, 1}, {5, 5, 3})};
+  c.regions = {region};
+  OutletSpec out;
+  out.name = "drain", out.min = {0, 0, 0}, out.max = {40, 40, 2};
+  c.outlets = {out};
+  EXPECT_THAT(fill(c).warnings, Contains(HasSubstr("outlet 'drain' takes 16 of 32 particles at the start")));
+  EXPECT_THAT(fill(c).warnings, Contains(HasSubstr("outlet 'drain' is thinner than 4.0 spacings")));
+  c.outlets[0].max.z = 21, c.outlets[0].min.z = 10;
+  EXPECT_THAT(fill(c).warnings, Contains(HasSubstr("takes what inlet 'spout' feeds: it covers its face")));
+  c.outlets[0].max.z = 9, c.outlets[0].min.z = 4;
+  EXPECT_THAT(fill(c).warnings, Not(Contains(HasSubstr("outlet"))));
+}
+
+TEST(InletFaces, FewRowsAreWarnedOf) {
+  InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
+  in.radius = 4, in.stop = 1.5;  // 2 m/s, 3 m
+  Case c = with(in);
+  c.output.end_time = 9;
+  EXPECT_THAT(fill(c).warnings, Contains(HasSubstr("inlet 'spout' brings 2.9 rows")));
+  c.inlets[0].stop = 6;
+  EXPECT_THAT(fill(c).warnings, Not(Contains(HasSubstr("rows of particles"))));
+}
+
 TEST(InletFaces, CheckTellsWhatTheyBring) {
   InletSpec in = inlet(InletFace::disc, {20, 20, 30}, {0, 0, -1});
   in.radius = 4, in.feed = InletFeed::mass_flow, in.value = 5e4;

@@ -143,6 +143,8 @@ TEST(ShapesDrawn, WrongOnesAreRefused) {
       "one of them above 0");
   has(message_of("{shape='box', min=[0,0,0], max=[1,1,1], rotate=[0,0,1,2]}"),
       "wrong type: allowed: a list [x, y, z]");
+  has(message_of("{shape='box', min=[0,0,0], max=[1,1,1], rotate=[0,0,30]}"),
+      "more than a turn: allowed: up to 2 pi");
   has(message_of("{shape='box', min=[0,0,0], max=[1,1,1], file='a'}"), "file goes with shape = \"stl\"");
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "backend/error.hpp"
+#include "host/geometry_cases.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/run.hpp"
 #include "host/run/run_loop.hpp"
@@ -63,6 +64,23 @@ class ChangedRun : public testing::Test {
 
   const TempFolder folder_;
 };
+
+// Of a wall beside the fluid: the file has gone to another folder since.
+TEST_F(ChangedRun, GoesOnWithAnStlFileThatHasMoved) {
+  const std::string before = folder_ / "before.stl", after = folder_ / "after.stl";
+  std::ofstream(before, std::ios::binary)
+      << binary_stl(box_triangles({-0.02, -0.02, -0.02}, {0.02, 0.02, -0.006}));
+  std::ofstream(folder_ / "tiny.toml")
+      << tiny_case("0.006") << "[[wall]]\nname = 'block'\nshapes = [{shape='stl', file='" << before
+      << "'}]\n";
+  begin("moved"), begin("whole", {}, 0.006);
+  std::filesystem::rename(before, after);
+  RunOptions o = options("moved");
+  o.until = 0.006;
+  o.changes = {"wall.1.shapes.0.file=" + after};
+  EXPECT_EQ(resume_run(o).exit_code(), 0);
+  EXPECT_EQ(read_text_file(folder_ / "moved/history.csv"), read_text_file(folder_ / "whole/history.csv"));
+}
 
 TEST_F(ChangedRun, RefusesAnEditOfTheFlowNamingBothValuesAndTheWayOut) {
   const std::string history = file("history.csv");
