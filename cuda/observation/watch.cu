@@ -31,6 +31,10 @@ Watch::Watch(Context& context, const SimulationSetup& setup)
   for (const std::uint8_t kind : setup.particles.fluid) ++count[kind];
   for (std::size_t kind = 0; kind < count.size(); ++kind)
     mass_ += static_cast<double>(count[kind]) * particle_mass(setup, kind);
+  // What is about to come through inlets belongs to the measure of a growth.
+  for (const InletSetup& in : setup.inlets)
+    mass_ +=
+        static_cast<double>(in.origin.size()) * inlet_moving_rows(setup) * particle_mass(setup, in.fluid);
 }
 
 void Watch::begin(const FluidArrays& fluid, Span<const FluidConstants> fluids, DiagnosticScratch& scratch) {

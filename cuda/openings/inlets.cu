@@ -162,8 +162,8 @@ void Inlets::place(const WallStep& step, WallArrays& wall) {
   launch(context_, "place inlets", wall.count,
          PlaceColumns{static_cast<Index>(first_wall_), static_cast<Index>(rows_),
                       static_cast<Index>(moving_rows_), 1 / step.dt, moment_.span(), inlet_.span(),
-                      origin_.span(), share_.span(), retreat_.span(), wall.id.span(),
-                      wall.place.span(), wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
+                      origin_.span(), share_.span(), retreat_.span(), wall.id.span(), wall.place.span(),
+                      wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
 }
 
 FedParticles Inlets::feed(double now, double last_dt, const WallArrays& wall,

@@ -8,119 +8,16 @@
 #include "backend/error.hpp"
 #include "fluid/constants.hpp"
 #include "host/case/toml_reader.hpp"
+#include "host/geometry/inlet_face.hpp"
 #include "host/geometry/inlet_profile.hpp"
-#include "host/geometry/stl.hpp"
 
 namespace slagflow {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double nearest_wall = 0.25;  // [spacings] that a column keeps from walls
-constexpr double flat = 1e-3;          // of its size, that a patch may be bent
-
-Vec3d unit(Vec3d v) { return v * (1 / norm(v)); }
-
-// Coordinates over the face: p = center + a u + b v.
-struct Frame {
-  Vec3d center, normal, u, v;
-  double a(Vec3d p) const { return dot(p - center, u); }
-  double b(Vec3d p) const { return dot(p - center, v); }
-  Vec3d at(double x, double y) const { return center + x * u + y * v; }
-};
-
-// The face: whether it holds a place, and its area.
-struct Face {
-  Frame frame;
-  double half_a = 0, half_b = 0;  // [m] extent to either side
-  double area = 0;                // [m^2], a height [m] with two dimensions
-  std::function<bool(double, double)> holds;
-};
 
 bool along_axis(Vec3d v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) > (1 - 1e-9) * norm(v);
-}
-
-// v as near to `up` as the normal allows.
-Frame frame_of(const Case& c, Vec3d center, Vec3d normal, Vec3d up) {
-  Frame f{center, unit(normal), {}, {}};
-  if (c.dimensions == 2) {
-    f.center.y = 0;
-    f.u = {0, 1, 0}, f.v = cross(f.normal, f.u);
-    return f;
-  }
-  const auto square = [&](Vec3d way) { return way - dot(way, f.normal) * f.normal; };
-  Vec3d v = square(up);
-  if (!(norm(v) > 1e-6 * norm(up))) v = square({0, 0, 1});
-  if (!(norm(v) > 1e-6)) v = square({1, 0, 0});
-  f.v = unit(v), f.u = cross(f.v, f.normal);
-  return f;
-}
-
-[[noreturn]] void refuse(const Case& c, std::size_t inlet, const std::string& key, const std::string& what) {
-  const std::string path = "inlet." + std::to_string(inlet) + (key.empty() ? "" : "." + key);
-  throw InputError(c.place_of(path) + ": key '" + path + "': " + what);
-}
-
-double side(Vec3d a, Vec3d b, Vec3d p, Vec3d normal) { return dot(cross(b - a, p - a), normal); }
-
-// Inside or on the edge, whichever way round the triangle goes.
-bool in_triangle(const Triangle& t, Vec3d p, Vec3d normal) {
-  const double s[] = {side(t[0], t[1], p, normal), side(t[1], t[2], p, normal), side(t[2], t[0], p, normal)};
-  return (s[0] >= 0 && s[1] >= 0 && s[2] >= 0) || (s[0] <= 0 && s[1] <= 0 && s[2] <= 0);
-}
-
-Face patch_face(const Case& c, std::size_t inlet) {
-  const InletSpec& spec = c.inlets[inlet];
-  std::vector<Triangle> triangles = read_stl(spec.stl.file);
-  Vec3d low{1e300, 1e300, 1e300}, high = -1.0 * low;
-  for (Triangle& t : triangles)
-    for (Vec3d& p : t) {
-      p = spec.stl.scale * p + spec.stl.translate;
-      for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
-    }
-  Face face;
-  face.frame = frame_of(c, 0.5 * (low + high), spec.normal, {});
-  const Vec3d n = face.frame.normal;
-  double furthest = 0;
-  for (const Triangle& t : triangles) {
-    face.area += 0.5 * norm(cross(t[1] - t[0], t[2] - t[0]));
-    for (const Vec3d& p : t) {
-      furthest = std::max(furthest, std::abs(dot(p - triangles[0][0], n)));
-      face.half_a = std::max(face.half_a, std::abs(face.frame.a(p)));
-      face.half_b = std::max(face.half_b, std::abs(face.frame.b(p)));
-    }
-  }
-  face.frame.center += dot(triangles[0][0] - face.frame.center, n) * n;
-  if (furthest > flat * norm(high - low))
-    refuse(c, inlet, "file",
-           "its triangles lie up to " + show(furthest) +
-               " m beside a plane square to normal: allowed: a flat patch, and the normal of its plane");
-  const Frame frame = face.frame;
-  face.holds = [triangles, frame](double a, double b) {
-    return std::any_of(triangles.begin(), triangles.end(),
-                       [&](const Triangle& t) { return in_triangle(t, frame.at(a, b), frame.normal); });
-  };
-  return face;
-}
-
-Face face_of(const Case& c, std::size_t inlet) {
-  const InletSpec& spec = c.inlets[inlet];
-  if (spec.face == InletFace::stl) return patch_face(c, inlet);
-  Face face;
-  face.frame = frame_of(c, spec.center, spec.normal, spec.up);
-  if (spec.face == InletFace::rectangle) {
-    face.half_a = 0.5 * spec.width, face.half_b = 0.5 * spec.height;
-    face.area = spec.height * (c.dimensions == 2 ? 1 : spec.width);
-    return face;
-  }
-  const double outer = spec.radius, inner = spec.face == InletFace::annulus ? spec.inner_radius : 0;
-  face.half_a = face.half_b = outer;
-  face.area = pi * (outer * outer - inner * inner);
-  face.holds = [inner, outer](double a, double b) {
-    const double r2 = a * a + b * b;
-    return r2 < outer * outer && r2 >= inner * inner;
-  };
-  return face;
 }
 
 // Places over the face and the area of each.
@@ -130,7 +27,7 @@ struct Sites {
 };
 
 // Evenly between the edges.
-Sites rectangle_sites(const Case& c, const Face& face) {
+Sites rectangle_sites(const Case& c, const InletOutline& face) {
   const auto along = [&](double half) { return std::max(1L, std::lround(2 * half / c.spacing)); };
   const long na = c.dimensions == 2 ? 1 : along(face.half_a), nb = along(face.half_b);
   Sites sites;
@@ -145,7 +42,7 @@ Sites rectangle_sites(const Case& c, const Face& face) {
 }
 
 // A square grid with a point at (a, b).
-std::vector<std::array<double, 2>> grid_sites(const Face& face, double a, double b, double spacing) {
+std::vector<std::array<double, 2>> grid_sites(const InletOutline& face, double a, double b, double spacing) {
   std::vector<std::array<double, 2>> places;
   const auto first = [&](double at, double half) { return at - spacing * std::ceil((at + half) / spacing); };
   for (double y = first(b, face.half_b); y <= face.half_b + spacing; y += spacing)
@@ -155,7 +52,7 @@ std::vector<std::array<double, 2>> grid_sites(const Face& face, double a, double
 }
 
 // On the lattice where the face lies along it; else so that the number comes nearest to the area.
-Sites grid_sites(const Case& c, const Face& face, const Lattice& lattice) {
+Sites grid_sites(const Case& c, const InletOutline& face, const Lattice& lattice) {
   const double dx = c.spacing, wanted = face.area / (dx * dx);
   const Vec3d site = lattice.position({0, 0, 0});
   Sites sites;
@@ -193,7 +90,7 @@ double speed_of_unit(const Case& c, const InletSpec& spec, double area) {
 }
 
 // Speed over its mean, of a place over the face.
-std::function<double(double, double)> shares(const Case& c, const InletSpec& spec, const Face& face,
+std::function<double(double, double)> shares(const Case& c, const InletSpec& spec, const InletOutline& face,
                                              double mean) {
   if (spec.profile == InletProfile::plug || !(mean > 0)) return [](double, double) { return 1.0; };
   const Rheology law = c.fluids[static_cast<std::size_t>(spec.fluid)].law();
@@ -208,7 +105,7 @@ std::function<double(double, double)> shares(const Case& c, const InletSpec& spe
   return [share](double a, double b) { return share(std::sqrt(a * a + b * b)); };
 }
 
-double shorter_way(const Case& c, const InletSpec& spec, const Face& face) {
+double shorter_way(const Case& c, const InletSpec& spec, const InletOutline& face) {
   if (c.dimensions == 2) return 2 * face.half_b;
   if (spec.face == InletFace::annulus) return spec.radius - spec.inner_radius;
   return 2 * std::min(face.half_a, face.half_b);
@@ -227,7 +124,8 @@ bool in_domain(const Case& c, const Lattice& lattice, Vec3d p) {
 namespace {
 
 // Ways over the face in which the bundle ends at a column: none of its columns is a spacing further.
-std::vector<Vec3d> ends(const Case& c, const Frame& frame, const std::vector<Vec3d>& columns, Vec3d here) {
+std::vector<Vec3d> ends(const Case& c, const FaceFrame& frame, const std::vector<Vec3d>& columns,
+                        Vec3d here) {
   std::vector<Vec3d> open;
   for (const Vec3d& way : {frame.u, -frame.u, frame.v, -frame.v}) {
     if (c.dimensions == 2 && std::abs(way.y) > 0.5) continue;
@@ -242,8 +140,9 @@ std::vector<Vec3d> ends(const Case& c, const Frame& frame, const std::vector<Vec
 }
 
 // Of a column the nearest end of the bundle beyond which, behind the face, no wall is.
-std::vector<InletColumns::Side> sides_of(const Case& c, const Frame& frame, const std::vector<Vec3d>& columns,
-                                         double stride, const WallSolids& walls) {
+std::vector<InletColumns::Side> sides_of(const Case& c, const FaceFrame& frame,
+                                         const std::vector<Vec3d>& columns, double stride,
+                                         const WallSolids& walls) {
   struct End {
     Vec3d place, way;
   };
@@ -267,29 +166,31 @@ std::vector<InletColumns::Side> sides_of(const Case& c, const Frame& frame, cons
 InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& lattice,
                            const WallSolids& walls) {
   const InletSpec& spec = c.inlets[inlet];
-  const Face face = face_of(c, inlet);
+  const InletOutline face = face_of(c, inlet);
   const Sites sites =
       spec.face == InletFace::rectangle ? rectangle_sites(c, face) : grid_sites(c, face, lattice);
   if (sites.place.empty())
-    refuse(c, inlet, "",
-           "its face holds no particle: allowed: a larger face or a smaller resolution.spacing");
+    refuse_inlet(c, inlet, "",
+                 "its face holds no particle: allowed: a larger face or a smaller resolution.spacing");
   InletColumns columns;
   columns.normal = face.frame.normal;
   columns.stride = std::pow(c.spacing, c.dimensions) / sites.area;
   columns.across = shorter_way(c, spec, face);
   const double ratio = columns.stride / c.spacing;
   if (!(ratio > 0.6 && ratio < 1.6))
-    refuse(c, inlet, "",
-           "its face of " + show(face.area) + (c.dimensions == 2 ? " m" : " m^2") + " holds " +
-               std::to_string(sites.place.size()) +
-               " particles, too few for its size: allowed: a larger face or a smaller resolution.spacing");
+    refuse_inlet(
+        c, inlet, "",
+        "its face of " + show(face.area) + (c.dimensions == 2 ? " m" : " m^2") + " holds " +
+            std::to_string(sites.place.size()) +
+            " particles, too few for its size: allowed: a larger face or a smaller resolution.spacing");
   std::vector<std::array<double, 2>> open;
   for (const auto& [a, b] : sites.place) {
     const Vec3d origin = face.frame.at(a, b), first = origin + 0.5 * columns.stride * columns.normal;
     if (!in_domain(c, lattice, first))
-      refuse(c, inlet, spec.face == InletFace::stl ? "file" : "center",
-             "fluid would come in outside the domain: allowed: a face in it or on its boundary, the normal "
-             "inwards");
+      refuse_inlet(
+          c, inlet, spec.face == InletFace::stl ? "file" : "center",
+          "fluid would come in outside the domain: allowed: a face in it or on its boundary, the normal "
+          "inwards");
     if (walls.distance(lattice.wrapped(first)) < nearest_wall * c.spacing) {
       ++columns.blocked;
       continue;
@@ -297,11 +198,12 @@ InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& latt
     open.push_back({a, b}), columns.origin.push_back(origin);
   }
   if (open.empty())
-    refuse(c, inlet, "", "walls stand before all of its face: allowed: a face that looks into the open");
+    refuse_inlet(c, inlet, "",
+                 "walls stand before all of its face: allowed: a face that looks into the open");
   columns.area = sites.area * static_cast<double>(open.size());
   columns.side = sides_of(c, face.frame, columns.origin, columns.stride, walls);
   const double mean = fastest_flow(spec) * speed_of_unit(c, spec, columns.area);
-  if (!(mean > 0)) refuse(c, inlet, "", "feeds nothing: allowed: a flow above 0");
+  if (!(mean > 0)) refuse_inlet(c, inlet, "", "feeds nothing: allowed: a flow above 0");
   const auto share = shares(c, spec, face, mean);
   double sum = 0;
   for (const auto& [a, b] : open) {
@@ -455,9 +357,9 @@ void require_apart(const Case& c, const std::vector<InletColumns>& inlets) {
     for (std::size_t b = a + 1; b < inlets.size(); ++b) {
       const bool together = c.inlets[a].start < c.inlets[b].stop && c.inlets[b].start < c.inlets[a].stop;
       if (together && meet(c, inlets[a], inlets[b]))
-        refuse(c, b, "",
-               "feeds where inlet '" + c.inlets[a].name +
-                   "' does: allowed: faces that do not meet, or times, start and stop, that do not");
+        refuse_inlet(c, b, "",
+                     "feeds where inlet '" + c.inlets[a].name +
+                         "' does: allowed: faces that do not meet, or times, start and stop, that do not");
     }
 }
 
