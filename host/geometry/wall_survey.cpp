@@ -82,7 +82,10 @@ double WallSurvey::thickness(Vec3d foot, Vec3d normal, std::size_t body) const {
   for (double t = stride * spacing_; t < least_thickness * spacing_;) {
     const Vec3d q = foot - t * normal;
     const double d = distance(q, body);
-    if (d > touch * spacing_) return faces_back(q, normal, body) ? (t - d) / spacing_ : none;
+    if (d > touch * spacing_) {
+      const double thick = (t - d) / spacing_;  // nothing at an edge itself
+      return thick > touch && faces_back(q, normal, body) ? thick : none;
+    }
     t += std::max(-d, stride * spacing_);
   }
   return none;

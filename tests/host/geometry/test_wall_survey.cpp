@@ -84,6 +84,18 @@ TEST(WallSurvey, PartOfAMovingWallThatComesOutOfAnotherIsWarnedOf) {
   EXPECT_THAT(told({0, 0, 0}, 5), Not(missing));
 }
 
+// The rim of a trough whose section is cut flush with the wall's top.
+TEST(WallSurvey, AnEdgeIsNoThinWall) {
+  WallSpec trough = wall("trough", {box({0, -20, 0}, {60, 30, 35})});
+  trough.subtract = {{PrismSpec{1, {{20, 5}, {40, 5}, {50, 35}, {10, 35}}, -100, 100}, false}};
+  Case c = unit_case();
+  c.dimensions = 2;
+  c.domain.upper = {60, 10, 60};
+  c.regions[0].shapes = {box({25, -1, 7}, {35, 1, 9})};
+  c.walls = {trough};
+  EXPECT_THAT(fill(c).warnings, Not(Contains(HasSubstr("spacings thick"))));
+}
+
 TEST(WallSurvey, StlPlateIsWarnedOfAsTheBoxIs) {
   const std::string file =
       write_temp_file("plate.stl", binary_stl(box_triangles({-20, -20, 4}, {30, 30, 5})));
