@@ -83,7 +83,11 @@ void describe(CaseVisitor& v, PrismSpec& prism, const std::string&) {
                        "corners of the polygon, which may have dents, in their order: [x, z] along y, [x, y] "
                        "along z, [y, z] along x"),
               prism.points, allowed)) {
-    if (prism.points.size() < 3)
+    constexpr std::size_t most = 2000;
+    if (prism.points.size() > most)
+      v.problem("points", "has " + std::to_string(prism.points.size()) + " corners: allowed: up to " +
+                              std::to_string(most) + "; finer surfaces are STL files");
+    else if (prism.points.size() < 3)
       v.problem("points", "has " + std::to_string(prism.points.size()) + " corners: allowed: " + allowed);
     else if (crosses_itself(prism.points))
       v.problem("points",

@@ -74,9 +74,7 @@ InletOutline patch_face(const Case& c, std::size_t inlet) {
   return face;
 }
 
-}  // namespace
-
-InletOutline face_of(const Case& c, std::size_t inlet) {
+InletOutline outline_of(const Case& c, std::size_t inlet) {
   const InletSpec& spec = c.inlets[inlet];
   if (spec.face == InletFace::stl) return patch_face(c, inlet);
   InletOutline face;
@@ -94,6 +92,21 @@ InletOutline face_of(const Case& c, std::size_t inlet) {
     return r2 < outer * outer && r2 >= inner * inner;
   };
   return face;
+}
+
+}  // namespace
+
+InletOutline face_of(const Case& c, std::size_t inlet) {
+  InletOutline face = outline_of(c, inlet);
+  Vec3d size = c.domain.upper - c.domain.lower;
+  if (c.dimensions == 2) size.y = 0;
+  const double across = 2 * std::max(c.dimensions == 2 ? 0 : face.half_a, face.half_b);
+  if (across <= norm(size)) return face;
+  const bool patch = c.inlets[inlet].face == InletFace::stl;
+  refuse_inlet(c, inlet, patch ? "scale" : "",
+               "its face is " + show(across) + " m across, the domain " + show(norm(size)) +
+                   " m from corner to corner: allowed: a face within the domain" +
+                   (patch ? "; a file drawn in mm has scale = 1e-3" : ""));
 }
 
 void refuse_inlet(const Case& c, std::size_t inlet, const std::string& key, const std::string& what) {

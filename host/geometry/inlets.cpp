@@ -210,6 +210,8 @@ InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& latt
     columns.share.push_back(std::max(share(a, b), 0.0));
     sum += columns.share.back();
   }
+  if (!(sum > 0 && std::isfinite(sum)))
+    refuse_inlet(c, inlet, "profile", "value \"developed\" cannot be computed for this fluid: allowed: plug");
   for (double& s : columns.share) s *= static_cast<double>(open.size()) / sum;
   return columns;
 }
@@ -306,10 +308,11 @@ void add_openings(const Case& c, const std::vector<InletColumns>& inlets, Simula
 }
 
 std::int64_t fed_particles(const SimulationSetup& setup, double time) {
+  constexpr double most = 1e12;  // of a column
   std::int64_t count = 0;
   for (const InletSetup& in : setup.inlets)
     for (const double share : in.share)
-      count += static_cast<std::int64_t>(share * in.rate.travelled(time) / in.stride + 0.5);
+      count += static_cast<std::int64_t>(std::min(share * in.rate.travelled(time) / in.stride + 0.5, most));
   return count;
 }
 

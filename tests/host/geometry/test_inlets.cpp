@@ -192,6 +192,8 @@ TEST(InletFaces, ImpossibleOnesAreRefused) {
   InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
   in.radius = 0.2;
   EXPECT_THAT(refusal(with(in)), HasSubstr("its face holds no particle"));
+  in.radius = 1e30;
+  EXPECT_THAT(refusal(with(in)), HasSubstr("key 'inlet.0': its face is 2e+30 m across, the domain 69.2"));
   in.radius = 3, in.center = {20, 20, 60};
   EXPECT_THAT(refusal(with(in)), HasSubstr("key 'inlet.0.center': fluid would come in outside the domain"));
   in.center = {20, 20, 20}, in.value = 0;
