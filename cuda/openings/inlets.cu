@@ -166,12 +166,8 @@ void Inlets::place(const WallStep& step, WallArrays& wall) {
                       wall.velocity.span(), wall.acceleration.span(), wall.moved.span()});
 }
 
-FedParticles Inlets::feed(double now, double last_dt, const WallArrays& wall,
-                          Span<const FluidConstants> fluids, const FlowConstants& flow, Index next_id,
-                          FluidArrays& fluid) {
+FedParticles Inlets::take_rows(double now, double last_dt) {
   FedParticles fed;
-  std::vector<Quad> motion;
-  std::vector<Index> column;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     Column& c = columns_[k];
     const InletSetup& in = inlets_[c.inlet];
@@ -181,22 +177,29 @@ FedParticles Inlets::feed(double now, double last_dt, const WallArrays& wall,
     for (const std::int64_t all = rows_by(c, now); c.rows < all; ++c.rows) {
       fed.position.push_back(c.origin + (way - (static_cast<double>(c.rows) + 0.5) * in.stride) * in.normal);
       fed.fluid.push_back(in.fluid);
-      motion.push_back(quad(to_real(speed * in.normal), 0));
-      column.push_back(static_cast<Index>(k));
+      fed.motion.push_back(quad(to_real(speed * in.normal), 0));
+      fed.column.push_back(static_cast<Index>(k));
     }
   }
-  const auto count = static_cast<Index>(column.size());
+  return fed;
+}
+
+FedParticles Inlets::feed(const Feeding& at, const WallArrays& wall, Span<const FluidConstants> fluids,
+                          const FlowConstants& flow, FluidArrays& fluid) {
+  FedParticles fed = take_rows(at.now, at.last_dt);
+  const auto count = static_cast<Index>(fed.column.size());
   if (count == 0) return fed;
   upload_rows();
   const Index before = fluid.count;
   launch(context_, "pressures of inlets", wall.count,
          TakePressure{static_cast<Index>(first_wall_), static_cast<Index>(rows_), wall.id.span(),
                       wall.pressure.span(), pressure_.span()});
-  position_.upload(fed.position), motion_.upload(motion), column_.upload(column), kind_.upload(fed.fluid);
+  position_.upload(fed.position), motion_.upload(fed.motion);
+  column_.upload(fed.column), kind_.upload(fed.fluid);
   fluid.resize(before + count);
   launch(context_, "feed", count,
          FeedParticle{before,
-                      next_id,
+                      at.next_id,
                       position_.span(),
                       motion_.span(),
                       column_.span(),

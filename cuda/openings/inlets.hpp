@@ -14,6 +14,8 @@ namespace slagflow {
 struct FedParticles {
   std::vector<Vec3d> position;      // [m] from the domain's lower corner
   std::vector<std::uint8_t> fluid;  // index
+  std::vector<Quad> motion;         // m/s
+  std::vector<Index> column;
 };
 
 class Inlets {
@@ -33,8 +35,12 @@ class Inlets {
   // Before the lists are built: what has come in by `now` is appended to the fluid with the pressure of the
   // wall particle that it was. Ids go on from `next_id`, by inlet, then by column. The walls are to be placed
   // anew.
-  FedParticles feed(double now, double last_dt, const WallArrays&, Span<const FluidConstants>,
-                    const FlowConstants&, Index next_id, FluidArrays&);
+  struct Feeding {
+    double now, last_dt;  // [s]
+    Index next_id;
+  };
+  FedParticles feed(const Feeding&, const WallArrays&, Span<const FluidConstants>, const FlowConstants&,
+                    FluidArrays&);
   // Whether rows of a quarter of the columns are due, or one by half a stride: the lists are to be built.
   bool overdue(double now) const;
   // As if fed at that time, without any fluid: for a restored state, whose lists were built then.
@@ -70,6 +76,8 @@ class Inlets {
   };
   // Whole rows that have entered by then.
   std::int64_t rows_by(const Column&, double time) const;
+  // The rows that are due by then, which count as entered.
+  FedParticles take_rows(double now, double last_dt);
   void upload_rows();
 
   Context& context_;

@@ -165,7 +165,7 @@ void Simulation::State::rebuild() {
 bool Simulation::State::feed() {
   if (!inlets.any()) return false;
   const Index before = fluid.count;
-  const FedParticles fed = inlets.feed(time, last_dt, wall, fluids.span(), flow, next_id(), fluid);
+  const FedParticles fed = inlets.feed({time, last_dt, next_id()}, wall, fluids.span(), flow, fluid);
   if (fed.position.empty()) return false;
   planes.add(fed.position);
   given += energy_from(context, before, fluid, fluids.span(), setup, diagnostics);

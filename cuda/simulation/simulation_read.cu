@@ -9,6 +9,35 @@ double Simulation::neighbours_mean() const {
   return mean_neighbours(s.context, s.pairs(), s.diagnostics);
 }
 
+void Simulation::State::tell_openings(Totals& t) const {
+  t.mass_fed = fed_mass(), t.fed = inlets.fed();
+  for (std::size_t k = 0; k < t.fed.size(); ++k)
+    t.fed_mass.push_back(static_cast<double>(t.fed[k]) * particle_mass(setup, setup.inlets[k].fluid));
+  for (std::size_t k = 0; k < setup.outlets.size(); ++k) {
+    t.removed.push_back(0), t.removed_mass.push_back(0);
+    for (std::size_t kind = 0; kind < departed.size(); ++kind) {
+      const std::int64_t count = ordering.removed[k * departed.size() + kind];
+      t.removed.back() += count;
+      t.removed_mass.back() += static_cast<double>(count) * particle_mass(setup, kind);
+    }
+    t.mass_left += t.removed_mass.back();
+  }
+}
+
+// What left through the face, or an outlet, beyond a front's plane has passed it.
+void Simulation::State::tell_passed(Totals& t) const {
+  for (std::size_t k = 0; k < t.fronts.size(); ++k) {
+    const FrontSetup& front = setup.fronts[k];
+    t.fronts[k].passed += t.departed[2 * static_cast<std::size_t>(front.axis) + (front.sign > 0 ? 1U : 0U)];
+    for (std::size_t o = 0; o < setup.outlets.size(); ++o) {
+      const OutletSetup& outlet = setup.outlets[o];
+      const bool beyond = front.sign > 0 ? outlet.lower[front.axis] >= front.position
+                                         : outlet.upper[front.axis] <= front.position;
+      if (beyond) t.fronts[k].passed += t.removed[o];
+    }
+  }
+}
+
 Totals Simulation::totals() {
   State& s = *state_;
   Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
@@ -21,18 +50,7 @@ Totals Simulation::totals() {
       t.departed[face] += s.departed[kind][face];
       t.mass_left += static_cast<double>(s.departed[kind][face]) * particle_mass(s.setup, kind);
     }
-  t.mass_fed = s.fed_mass(), t.fed = s.inlets.fed();
-  for (std::size_t k = 0; k < t.fed.size(); ++k)
-    t.fed_mass.push_back(static_cast<double>(t.fed[k]) * particle_mass(s.setup, s.setup.inlets[k].fluid));
-  for (std::size_t k = 0; k < s.setup.outlets.size(); ++k) {
-    t.removed.push_back(0), t.removed_mass.push_back(0);
-    for (std::size_t kind = 0; kind < s.departed.size(); ++kind) {
-      const std::int64_t count = s.ordering.removed[k * s.departed.size() + kind];
-      t.removed.back() += count;
-      t.removed_mass.back() += static_cast<double>(count) * particle_mass(s.setup, kind);
-    }
-    t.mass_left += t.removed_mass.back();
-  }
+  s.tell_openings(t);
   t.impulse_time = s.time - 0.5 * s.last_dt;
   if (s.setup.measure_walls)
     for (std::size_t body = 0; body < s.setup.bodies.size(); ++body) {
@@ -41,17 +59,7 @@ Totals Simulation::totals() {
       load.pressure_torque += cross(s.setup.domain.lower, load.pressure);
       load.viscous_torque += cross(s.setup.domain.lower, load.viscous);
     }
-  // What left through the face, or an outlet, beyond a front's plane has passed it.
-  for (std::size_t k = 0; k < t.fronts.size(); ++k) {
-    const FrontSetup& front = s.setup.fronts[k];
-    t.fronts[k].passed += t.departed[2 * static_cast<std::size_t>(front.axis) + (front.sign > 0 ? 1U : 0U)];
-    for (std::size_t o = 0; o < s.setup.outlets.size(); ++o) {
-      const OutletSetup& outlet = s.setup.outlets[o];
-      const bool beyond = front.sign > 0 ? outlet.lower[front.axis] >= front.position
-                                         : outlet.upper[front.axis] <= front.position;
-      if (beyond) t.fronts[k].passed += t.removed[o];
-    }
-  }
+  s.tell_passed(t);
   t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
   for (const LineSetup& line : s.setup.levels) t.levels.push_back(level_of(s.profile(line)));
   for (const BoxSetup& box : s.setup.boxes)

@@ -81,6 +81,8 @@ struct Simulation::State {
   bool feed();
   Index next_id() const { return start_count + static_cast<Index>(inlets.all_fed()); }
   double fed_mass() const;
+  void tell_openings(Totals&) const;
+  void tell_passed(Totals&) const;
   void build_lists();
   void restore_walls();
   void rebuild_lists_as_saved();

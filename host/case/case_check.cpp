@@ -162,6 +162,21 @@ void check_stop(const Case& c, CaseProblems& problems) {
                                         (arriving.empty() ? "the case has none" : arriving));
 }
 
+void check_flat_inlets(const Case& c, CaseProblems& problems) {
+  if (c.dimensions != 2) return;
+  for (std::size_t k = 0; k < c.inlets.size(); ++k) {
+    const std::string key = "inlet." + std::to_string(k);
+    if (c.inlets[k].face != InletFace::rectangle)
+      problems.add(key + ".face", "value " +
+                                      in_quotes(face_names[static_cast<std::size_t>(c.inlets[k].face)]) +
+                                      " with two dimensions: allowed: rectangle");
+    const double y = c.inlets[k].normal.y;
+    if (y != 0)
+      problems.add(key + ".normal",
+                   "y component " + show(y) + " with two dimensions: allowed: 0, the plane is x-z");
+  }
+}
+
 void check_two_dimensions(const Case& c, CaseProblems& problems) {
   if (c.dimensions != 2) return;
   const auto no_y = [&](const std::string& key, double y) {
@@ -184,14 +199,6 @@ void check_two_dimensions(const Case& c, CaseProblems& problems) {
       no_y(wave + ".amplitude", c.regions[r].waves[w].amplitude.y);
       no_y(wave + ".wave_vector", c.regions[r].waves[w].wave_vector.y);
     }
-  }
-  for (std::size_t k = 0; k < c.inlets.size(); ++k) {
-    const std::string key = "inlet." + std::to_string(k);
-    if (c.inlets[k].face != InletFace::rectangle)
-      problems.add(key + ".face", "value " +
-                                      in_quotes(face_names[static_cast<std::size_t>(c.inlets[k].face)]) +
-                                      " with two dimensions: allowed: rectangle");
-    no_y(key + ".normal", c.inlets[k].normal.y);
   }
   for (std::size_t w = 0; w < c.walls.size(); ++w) {
     const std::string key = "wall." + std::to_string(w);
@@ -280,6 +287,7 @@ bool is_plain_name(const std::string& name) {
 
 void check_across_tables(const Case& c, CaseProblems& problems) {
   check_two_dimensions(c, problems);
+  check_flat_inlets(c, problems);
   check_periodic(c, problems);
   check_exits(c, problems);
   check_inlet_names(c, problems);

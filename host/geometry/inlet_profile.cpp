@@ -113,15 +113,15 @@ SpeedShare developed_pipe(const Rheology& law, double radius, double mean) {
   return linear_stress(law, radius, mean, 1);
 }
 
-SpeedShare developed_annulus(const Rheology& rheology, double inner, double outer, double mean) {
-  const double gap = outer - inner;
+SpeedShare developed_annulus(const Rheology& rheology, double inner_radius, double radius, double mean) {
+  const double gap = radius - inner_radius;
   const FlowCurve law(rheology, 1e4 * mean / gap);
-  // The velocity of the inner wall falls with the radius without stress, which is where it vanishes.
+  // The velocity of the inner_radius wall falls with the radius without stress, which is where it vanishes.
   const auto section = [&](double gradient) {
     const auto of = [&](double a) {
-      return integrate(law, inner, outer, [&](double r) { return 0.5 * gradient * (r - a * a / r); });
+      return integrate(law, inner_radius, radius, [&](double r) { return 0.5 * gradient * (r - a * a / r); });
     };
-    return of(bisect(inner, outer, 0, [&](double a) { return -of(a).velocity.front(); }));
+    return of(bisect(inner_radius, radius, 0, [&](double a) { return -of(a).velocity.front(); }));
   };
   const double gradient =
       bisect(0, 4 * law.largest_stress() / gap, mean, [&](double g) { return section(g).mean(1); });

@@ -161,37 +161,40 @@ std::vector<InletColumns::Side> sides_of(const Case& c, const FaceFrame& frame,
   return sides;
 }
 
-}  // namespace
-
-InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& lattice,
-                           const WallSolids& walls) {
-  const InletSpec& spec = c.inlets[inlet];
-  const InletOutline face = face_of(c, inlet);
-  const Sites sites =
-      spec.face == InletFace::rectangle ? rectangle_sites(c, face) : grid_sites(c, face, lattice);
+// The sites of a face and its area for each; throws InputError where they do not make up its area.
+Sites sites_of(const Case& c, std::size_t inlet, const InletOutline& face, const Lattice& lattice) {
+  Sites sites =
+      c.inlets[inlet].face == InletFace::rectangle ? rectangle_sites(c, face) : grid_sites(c, face, lattice);
   if (sites.place.empty())
     refuse_inlet(c, inlet, "",
                  "its face holds no particle: allowed: a larger face or a smaller resolution.spacing");
-  InletColumns columns;
-  columns.normal = face.frame.normal;
-  columns.stride = std::pow(c.spacing, c.dimensions) / sites.area;
-  columns.across = shorter_way(c, spec, face);
-  const double ratio = columns.stride / c.spacing;
+  const double ratio = std::pow(c.spacing, c.dimensions) / sites.area / c.spacing;
   if (!(ratio > 0.6 && ratio < 1.6))
     refuse_inlet(
         c, inlet, "",
         "its face of " + show(face.area) + (c.dimensions == 2 ? " m" : " m^2") + " holds " +
             std::to_string(sites.place.size()) +
             " particles, too few for its size: allowed: a larger face or a smaller resolution.spacing");
+  return sites;
+}
+
+// Leaves the sites before which no wall stands, and places their columns.
+struct Surroundings {
+  const Lattice& lattice;
+  const WallSolids& walls;
+};
+void open_columns(const Case& c, std::size_t inlet, const InletOutline& face, const Surroundings& around,
+                  Sites& sites, InletColumns& columns) {
+  const Lattice& lattice = around.lattice;
   std::vector<std::array<double, 2>> open;
   for (const auto& [a, b] : sites.place) {
     const Vec3d origin = face.frame.at(a, b), first = origin + 0.5 * columns.stride * columns.normal;
     if (!in_domain(c, lattice, first))
       refuse_inlet(
-          c, inlet, spec.face == InletFace::stl ? "file" : "center",
+          c, inlet, c.inlets[inlet].face == InletFace::stl ? "file" : "center",
           "fluid would come in outside the domain: allowed: a face in it or on its boundary, the normal "
           "inwards");
-    if (walls.distance(lattice.wrapped(first)) < nearest_wall * c.spacing) {
+    if (around.walls.distance(lattice.wrapped(first)) < nearest_wall * c.spacing) {
       ++columns.blocked;
       continue;
     }
@@ -200,19 +203,42 @@ InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& latt
   if (open.empty())
     refuse_inlet(c, inlet, "",
                  "walls stand before all of its face: allowed: a face that looks into the open");
-  columns.area = sites.area * static_cast<double>(open.size());
-  columns.side = sides_of(c, face.frame, columns.origin, columns.stride, walls);
-  const double mean = fastest_flow(spec) * speed_of_unit(c, spec, columns.area);
+  sites.place = std::move(open);
+}
+
+// Speeds of columns over their mean.
+std::vector<double> column_shares(const Case& c, std::size_t inlet, const InletOutline& face,
+                                  const Sites& open, double area) {
+  const InletSpec& spec = c.inlets[inlet];
+  const double mean = fastest_flow(spec) * speed_of_unit(c, spec, area);
   if (!(mean > 0)) refuse_inlet(c, inlet, "", "feeds nothing: allowed: a flow above 0");
   const auto share = shares(c, spec, face, mean);
+  std::vector<double> result;
   double sum = 0;
-  for (const auto& [a, b] : open) {
-    columns.share.push_back(std::max(share(a, b), 0.0));
-    sum += columns.share.back();
+  for (const auto& [a, b] : open.place) {
+    result.push_back(std::max(share(a, b), 0.0));
+    sum += result.back();
   }
   if (!(sum > 0 && std::isfinite(sum)))
     refuse_inlet(c, inlet, "profile", "value \"developed\" cannot be computed for this fluid: allowed: plug");
-  for (double& s : columns.share) s *= static_cast<double>(open.size()) / sum;
+  for (double& s : result) s *= static_cast<double>(result.size()) / sum;
+  return result;
+}
+
+}  // namespace
+
+InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& lattice,
+                           const WallSolids& walls) {
+  const InletOutline face = face_of(c, inlet);
+  Sites sites = sites_of(c, inlet, face, lattice);
+  InletColumns columns;
+  columns.normal = face.frame.normal;
+  columns.stride = std::pow(c.spacing, c.dimensions) / sites.area;
+  columns.across = shorter_way(c, c.inlets[inlet], face);
+  open_columns(c, inlet, face, {lattice, walls}, sites, columns);
+  columns.area = sites.area * static_cast<double>(sites.place.size());
+  columns.side = sides_of(c, face.frame, columns.origin, columns.stride, walls);
+  columns.share = column_shares(c, inlet, face, sites, columns.area);
   return columns;
 }
 
@@ -228,171 +254,6 @@ FeedRate feed_rate(const Case& c, const InletSpec& spec, double area) {
   for (const auto& [time, value] : spec.rows)
     rate.time.push_back(time), rate.speed.push_back(value * unit_speed);
   return rate;
-}
-
-InletSpace::InletSpace(const Case& c, std::vector<InletColumns> inlets)
-    : spacing_(c.spacing), layers_(std::ceil(c.support_ratio)), inlets_(std::move(inlets)) {
-  for (const InletColumns& in : inlets_) {
-    const Vec3d around = (2 * layers_ * in.stride + c.spacing) * Vec3d{1, 1, 1};
-    Box box{in.origin[0], in.origin[0]};
-    for (const Vec3d& p : in.origin)
-      for (int k = 0; k < 3; ++k)
-        box.lower[k] = std::min(box.lower[k], p[k]), box.upper[k] = std::max(box.upper[k], p[k]);
-    boxes_.push_back({box.lower - around, box.upper + around});
-  }
-}
-
-bool InletSpace::Box::holds(Vec3d p) const {
-  for (int k = 0; k < 3; ++k)
-    if (!(p[k] >= lower[k] && p[k] <= upper[k])) return false;
-  return true;
-}
-
-bool InletSpace::holds(const InletColumns& in, Vec3d p, double around) const {
-  return std::any_of(in.origin.begin(), in.origin.end(), [&](const Vec3d& origin) {
-    const Vec3d d = p - origin;
-    const double behind = -dot(d, in.normal);
-    return behind > 0 && behind < 2 * layers_ * in.stride + 0.5 * spacing_ &&
-           norm(d + behind * in.normal) < around * spacing_;
-  });
-}
-
-bool InletSpace::holds(Vec3d p, double around) const {
-  for (std::size_t k = 0; k < inlets_.size(); ++k)
-    if (boxes_[k].holds(p) && holds(inlets_[k], p, around)) return true;
-  return false;
-}
-
-void add_openings(const Case& c, const std::vector<InletColumns>& inlets, SimulationSetup& setup) {
-  const int rows = inlet_rows(setup), moving = inlet_moving_rows(setup);
-  for (std::size_t k = 0; k < inlets.size(); ++k) {
-    const InletColumns& in = inlets[k];
-    InletSetup inlet;
-    inlet.name = c.inlets[k].name;
-    inlet.body = setup.bodies.size();
-    inlet.fluid = static_cast<std::uint8_t>(c.inlets[k].fluid);
-    inlet.normal = in.normal, inlet.stride = in.stride;
-    inlet.origin = in.origin, inlet.share = in.share;
-    inlet.rate = feed_rate(c, c.inlets[k], in.area);
-    WallBody body;
-    body.name = inlet.name;
-    setup.bodies.push_back(body);
-    WallParticles& w = setup.walls;
-    w.back_normal.resize(w.position.size()), w.back_depth.resize(w.position.size());
-    for (std::size_t column = 0; column < in.origin.size(); ++column)
-      for (int row = 0; row < rows; ++row) {
-        const double behind = inlet_row_place(row, moving) * in.stride, end = (rows - 2) * in.stride;
-        // Those that stay look backwards, and those nearest to a side that fluid comes to look there.
-        Vec3d normal = row < moving ? in.normal : -in.normal;
-        double depth = row < moving ? behind : end - behind;
-        if (in.side[column].depth > 0 && in.side[column].depth < depth)
-          normal = in.side[column].normal, depth = in.side[column].depth;
-        w.position.push_back(in.origin[column] - behind * in.normal);
-        w.normal.push_back(normal), w.depth.push_back(depth);
-        w.body.push_back(static_cast<std::uint8_t>(inlet.body));
-        w.back_normal.emplace_back(), w.back_depth.push_back(0);
-      }
-    setup.inlets.push_back(inlet);
-  }
-  for (const OutletSpec& spec : c.outlets) {
-    constexpr double far = 1e30;
-    OutletSetup outlet{spec.name, spec.min, spec.max};
-    if (spec.shape == OutletShape::plane) {
-      outlet.lower = {-far, -far, -far}, outlet.upper = {far, far, far};
-      const int axis = spec.direction.axis;
-      (spec.direction.sign > 0 ? outlet.lower : outlet.upper)[axis] = spec.position;
-    }
-    if (c.dimensions == 2) outlet.lower.y = -far, outlet.upper.y = far;
-    setup.outlets.push_back(outlet);
-  }
-}
-
-std::int64_t fed_particles(const SimulationSetup& setup, double time) {
-  constexpr double most = 1e12;  // of a column
-  std::int64_t count = 0;
-  for (const InletSetup& in : setup.inlets)
-    for (const double share : in.share)
-      count += static_cast<std::int64_t>(std::min(share * in.rate.travelled(time) / in.stride + 0.5, most));
-  return count;
-}
-
-namespace {
-
-// Whether two columns come out of the same place.
-bool meet(const Case& c, const InletColumns& a, const InletColumns& b) {
-  if (dot(a.normal, b.normal) < 0.5) return false;
-  for (const Vec3d& p : a.origin)
-    for (const Vec3d& q : b.origin)
-      if (norm(p - q) < 0.7 * c.spacing) return true;
-  return false;
-}
-
-bool held_by(const Case& c, const OutletSpec& out, Vec3d p) {
-  if (out.shape == OutletShape::plane) return out.direction.sign * (p[out.direction.axis] - out.position) > 0;
-  for (int k = 0; k < 3; ++k)
-    if (!(k == 1 && c.dimensions == 2) && !(p[k] >= out.min[k] && p[k] <= out.max[k])) return false;
-  return true;
-}
-
-void warn_of_outlet(const Case& c, const OutletSpec& out, const std::vector<InletColumns>& inlets,
-                    const std::vector<Vec3d>& fluid, std::vector<std::string>& warnings) {
-  constexpr double thin = 4;  // [spacings]
-  const std::string name = "outlet '" + out.name + "'";
-  const auto taken = std::count_if(fluid.begin(), fluid.end(), [&](Vec3d p) { return held_by(c, out, p); });
-  if (taken > 0)
-    warnings.push_back(name + " takes " + std::to_string(taken) + " of " + std::to_string(fluid.size()) +
-                       " particles at the start: they are inside of it");
-  for (std::size_t k = 0; k < inlets.size(); ++k)
-    if (held_by(c, out, inlets[k].origin[0] + 0.5 * inlets[k].stride * inlets[k].normal))
-      warnings.push_back(name + " takes what inlet '" + c.inlets[k].name + "' feeds: it covers its face");
-  if (out.shape == OutletShape::plane) return;
-  for (int k = 0; k < 3; ++k)
-    if (!(k == 1 && c.dimensions == 2) && out.max[k] - out.min[k] < thin * c.spacing)
-      return warnings.push_back(name + " is thinner than " + show(thin) +
-                                " spacings: fluid that is fast may pass it between two looks; a plane, or a "
-                                "box that reaches on behind, takes all");
-}
-
-}  // namespace
-
-void require_apart(const Case& c, const std::vector<InletColumns>& inlets) {
-  for (std::size_t a = 0; a < inlets.size(); ++a)
-    for (std::size_t b = a + 1; b < inlets.size(); ++b) {
-      const bool together = c.inlets[a].start < c.inlets[b].stop && c.inlets[b].start < c.inlets[a].stop;
-      if (together && meet(c, inlets[a], inlets[b]))
-        refuse_inlet(c, b, "",
-                     "feeds where inlet '" + c.inlets[a].name +
-                         "' does: allowed: faces that do not meet, or times, start and stop, that do not");
-    }
-}
-
-void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets, const std::vector<Vec3d>& fluid,
-                      std::vector<std::string>& warnings) {
-  for (const OutletSpec& out : c.outlets) warn_of_outlet(c, out, inlets, fluid, warnings);
-  constexpr double least = 5, few_rows = 10;  // particles over the face, and one behind the other
-  char text[200];
-  for (std::size_t k = 0; k < inlets.size(); ++k) {
-    const InletColumns& in = inlets[k];
-    const std::string name = "inlet '" + c.inlets[k].name + "'";
-    if (in.blocked > 0)
-      warnings.push_back(name + ": walls stand before " + std::to_string(in.blocked) + " of " +
-                         std::to_string(in.blocked + in.origin.size()) +
-                         " columns of its face: the flow goes through the others");
-    if (in.across < least * c.spacing) {
-      std::snprintf(text, sizeof text, " is %.2g spacings across at its narrowest: %g and more carry a flow",
-                    in.across / c.spacing, least);
-      warnings.push_back(name + text);
-    }
-    const double rows = feed_rate(c, c.inlets[k], in.area).travelled(c.output.last_time()) / in.stride;
-    if (c.inlets[k].start >= c.output.last_time()) {
-      warnings.push_back(name + " starts after the end of the run");
-    } else if (rows < few_rows) {
-      std::snprintf(
-          text, sizeof text,
-          " brings %.3g rows of particles by the end: it feeds in whole rows, half a row more or less", rows);
-      warnings.push_back(name + text);
-    }
-  }
 }
 
 }  // namespace slagflow

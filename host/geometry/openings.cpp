@@ -1,0 +1,189 @@
+// What inlets and outlets add to a setup, and what is told of them.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "fluid/constants.hpp"
+#include "host/case/toml_reader.hpp"
+#include "host/geometry/inlet_face.hpp"
+#include "host/geometry/inlets.hpp"
+
+namespace slagflow {
+
+InletSpace::InletSpace(const Case& c, std::vector<InletColumns> inlets)
+    : spacing_(c.spacing), layers_(std::ceil(c.support_ratio)), inlets_(std::move(inlets)) {
+  for (const InletColumns& in : inlets_) {
+    const Vec3d around = (2 * layers_ * in.stride + c.spacing) * Vec3d{1, 1, 1};
+    Box box{in.origin[0], in.origin[0]};
+    for (const Vec3d& p : in.origin)
+      for (int k = 0; k < 3; ++k)
+        box.lower[k] = std::min(box.lower[k], p[k]), box.upper[k] = std::max(box.upper[k], p[k]);
+    boxes_.push_back({box.lower - around, box.upper + around});
+  }
+}
+
+bool InletSpace::Box::holds(Vec3d p) const {
+  for (int k = 0; k < 3; ++k)
+    if (!(p[k] >= lower[k] && p[k] <= upper[k])) return false;
+  return true;
+}
+
+bool InletSpace::holds(const InletColumns& in, Vec3d p, double around) const {
+  return std::any_of(in.origin.begin(), in.origin.end(), [&](const Vec3d& origin) {
+    const Vec3d d = p - origin;
+    const double behind = -dot(d, in.normal);
+    return behind > 0 && behind < 2 * layers_ * in.stride + 0.5 * spacing_ &&
+           norm(d + behind * in.normal) < around * spacing_;
+  });
+}
+
+bool InletSpace::holds(Vec3d p, double around) const {
+  for (std::size_t k = 0; k < inlets_.size(); ++k)
+    if (boxes_[k].holds(p) && holds(inlets_[k], p, around)) return true;
+  return false;
+}
+
+namespace {
+
+// The wall particles of an inlet's columns.
+void add_columns(const InletColumns& in, std::size_t body, SimulationSetup& setup) {
+  const int rows = inlet_rows(setup), moving = inlet_moving_rows(setup);
+  WallParticles& w = setup.walls;
+  w.back_normal.resize(w.position.size()), w.back_depth.resize(w.position.size());
+  for (std::size_t column = 0; column < in.origin.size(); ++column)
+    for (int row = 0; row < rows; ++row) {
+      const double behind = inlet_row_place(row, moving) * in.stride, end = (rows - 2) * in.stride;
+      // Those that stay look backwards, and those nearest to a side that fluid comes to look there.
+      Vec3d normal = row < moving ? in.normal : -in.normal;
+      double depth = row < moving ? behind : end - behind;
+      if (in.side[column].depth > 0 && in.side[column].depth < depth)
+        normal = in.side[column].normal, depth = in.side[column].depth;
+      w.position.push_back(in.origin[column] - behind * in.normal);
+      w.normal.push_back(normal), w.depth.push_back(depth);
+      w.body.push_back(static_cast<std::uint8_t>(body));
+      w.back_normal.emplace_back(), w.back_depth.push_back(0);
+    }
+}
+
+OutletSetup outlet_setup(const Case& c, const OutletSpec& spec) {
+  constexpr double far = 1e30;
+  OutletSetup outlet{spec.name, spec.min, spec.max};
+  if (spec.shape == OutletShape::plane) {
+    outlet.lower = {-far, -far, -far}, outlet.upper = {far, far, far};
+    (spec.direction.sign > 0 ? outlet.lower : outlet.upper)[spec.direction.axis] = spec.position;
+  }
+  if (c.dimensions == 2) outlet.lower.y = -far, outlet.upper.y = far;
+  return outlet;
+}
+
+}  // namespace
+
+void add_openings(const Case& c, const std::vector<InletColumns>& inlets, SimulationSetup& setup) {
+  for (std::size_t k = 0; k < inlets.size(); ++k) {
+    const InletColumns& in = inlets[k];
+    InletSetup inlet;
+    inlet.name = c.inlets[k].name;
+    inlet.body = setup.bodies.size();
+    inlet.fluid = static_cast<std::uint8_t>(c.inlets[k].fluid);
+    inlet.normal = in.normal, inlet.stride = in.stride;
+    inlet.origin = in.origin, inlet.share = in.share;
+    inlet.rate = feed_rate(c, c.inlets[k], in.area);
+    WallBody body;
+    body.name = inlet.name;
+    setup.bodies.push_back(body);
+    add_columns(in, inlet.body, setup);
+    setup.inlets.push_back(inlet);
+  }
+  for (const OutletSpec& spec : c.outlets) setup.outlets.push_back(outlet_setup(c, spec));
+}
+
+std::int64_t fed_particles(const SimulationSetup& setup, double time) {
+  constexpr double most = 1e12;  // of a column
+  std::int64_t count = 0;
+  for (const InletSetup& in : setup.inlets)
+    for (const double share : in.share)
+      count += static_cast<std::int64_t>(
+          std::min(std::floor(share * in.rate.travelled(time) / in.stride + 0.5), most));
+  return count;
+}
+
+namespace {
+
+// Whether two columns come out of the same place.
+bool meet(const Case& c, const InletColumns& a, const InletColumns& b) {
+  if (dot(a.normal, b.normal) < 0.5) return false;
+  for (const Vec3d& p : a.origin)
+    for (const Vec3d& q : b.origin)
+      if (norm(p - q) < 0.7 * c.spacing) return true;
+  return false;
+}
+
+bool held_by(const Case& c, const OutletSpec& out, Vec3d p) {
+  if (out.shape == OutletShape::plane) return out.direction.sign * (p[out.direction.axis] - out.position) > 0;
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) && !(p[k] >= out.min[k] && p[k] <= out.max[k])) return false;
+  return true;
+}
+
+void warn_of_outlet(const Case& c, const OutletSpec& out, const std::vector<InletColumns>& inlets,
+                    const std::vector<Vec3d>& fluid, std::vector<std::string>& warnings) {
+  constexpr double thin = 4;  // [spacings]
+  const std::string name = "outlet '" + out.name + "'";
+  const auto taken = std::count_if(fluid.begin(), fluid.end(), [&](Vec3d p) { return held_by(c, out, p); });
+  if (taken > 0)
+    warnings.push_back(name + " takes " + std::to_string(taken) + " of " + std::to_string(fluid.size()) +
+                       " particles at the start: they are inside of it");
+  for (std::size_t k = 0; k < inlets.size(); ++k)
+    if (held_by(c, out, inlets[k].origin[0] + 0.5 * inlets[k].stride * inlets[k].normal))
+      warnings.push_back(name + " takes what inlet '" + c.inlets[k].name + "' feeds: it covers its face");
+  if (out.shape == OutletShape::plane) return;
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) && out.max[k] - out.min[k] < thin * c.spacing)
+      return warnings.push_back(name + " is thinner than " + show(thin) +
+                                " spacings: fluid that is fast may pass it between two looks; a plane, or a "
+                                "box that reaches on behind, takes all");
+}
+
+}  // namespace
+
+void require_apart(const Case& c, const std::vector<InletColumns>& inlets) {
+  for (std::size_t a = 0; a < inlets.size(); ++a)
+    for (std::size_t b = a + 1; b < inlets.size(); ++b) {
+      const bool together = c.inlets[a].start < c.inlets[b].stop && c.inlets[b].start < c.inlets[a].stop;
+      if (together && meet(c, inlets[a], inlets[b]))
+        refuse_inlet(c, b, "",
+                     "feeds where inlet '" + c.inlets[a].name +
+                         "' does: allowed: faces that do not meet, or times, start and stop, that do not");
+    }
+}
+
+void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets, const std::vector<Vec3d>& fluid,
+                      std::vector<std::string>& warnings) {
+  for (const OutletSpec& out : c.outlets) warn_of_outlet(c, out, inlets, fluid, warnings);
+  constexpr double least = 5, few_rows = 10;  // particles over the face, and one behind the other
+  char text[200];
+  for (std::size_t k = 0; k < inlets.size(); ++k) {
+    const InletColumns& in = inlets[k];
+    const std::string name = "inlet '" + c.inlets[k].name + "'";
+    if (in.blocked > 0)
+      warnings.push_back(name + ": walls stand before " + std::to_string(in.blocked) + " of " +
+                         std::to_string(in.blocked + in.origin.size()) +
+                         " columns of its face: the flow goes through the others");
+    if (in.across < least * c.spacing) {
+      std::snprintf(text, sizeof text, " is %.2g spacings across at its narrowest: %g and more carry a flow",
+                    in.across / c.spacing, least);
+      warnings.push_back(name + text);
+    }
+    const double rows = feed_rate(c, c.inlets[k], in.area).travelled(c.output.last_time()) / in.stride;
+    if (c.inlets[k].start >= c.output.last_time()) {
+      warnings.push_back(name + " starts after the end of the run");
+    } else if (rows < few_rows) {
+      std::snprintf(
+          text, sizeof text,
+          " brings %.3g rows of particles by the end: it feeds in whole rows, half a row more or less", rows);
+      warnings.push_back(name + text);
+    }
+  }
+}
+
+}  // namespace slagflow
