@@ -81,7 +81,7 @@ class Cylinder final : public Form {
         radius_(s.radius) {}
 
   double distance(Vec3d p) const override {
-    const Parts at = parts(p);
+    const AxisParts at = parts(p);
     const double side = at.radius - radius_;
     const double cap = std::max(-at.along, at.along - length_);
     if (side > 0 && cap > 0) return std::hypot(side, cap);
@@ -97,30 +97,21 @@ class Cylinder final : public Form {
   }
 
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
-    const Parts at = parts(p);
+    const AxisParts at = parts(p);
     feet.push_back({start_ + at.along * axis_ + radius_ * at.radial, at.radial});
     feet.push_back({p - at.along * axis_, -axis_});
     feet.push_back({p + (length_ - at.along) * axis_, axis_});
   }
 
   void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
-    const Parts at = parts(p);
+    const AxisParts at = parts(p);
     if (at.radius >= radius_) feet.push_back({start_ + at.along * axis_ + radius_ * at.radial, -at.radial});
     if (at.along <= 0) feet.push_back({p - at.along * axis_, axis_});
     if (at.along >= length_) feet.push_back({p + (length_ - at.along) * axis_, -axis_});
   }
 
  private:
-  struct Parts {
-    double along, radius;
-    Vec3d radial;  // unit vector away from the axis
-  };
-  Parts parts(Vec3d p) const {
-    const double along = dot(p - start_, axis_);
-    const Vec3d away = p - start_ - along * axis_;
-    const double radius = norm(away);
-    return {along, radius, radius > 1e-12 * radius_ ? away * (1 / radius) : any_across(axis_)};
-  }
+  AxisParts parts(Vec3d p) const { return parts_about(start_, axis_, p, 1e-12 * radius_); }
 
   Vec3d start_;
   double length_;

@@ -8,6 +8,13 @@
 namespace slagflow {
 namespace {
 
+// Any unit vector across the given one.
+Vec3d any_across(Vec3d axis) {
+  const Vec3d helper = std::abs(axis.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+  const Vec3d v = cross(axis, helper);
+  return v * (1 / norm(v));
+}
+
 double cross_of(std::array<double, 2> a, std::array<double, 2> b) { return a[0] * b[1] - a[1] * b[0]; }
 
 // Convex: the largest of the distances from its faces bounds that from it.
@@ -24,7 +31,7 @@ class Frustum final : public Form {
   }
 
   double distance(Vec3d p) const override {
-    const Parts at = parts(p);
+    const AxisParts at = parts(p);
     return std::max({side(at), -at.along, at.along - length_});
   }
 
@@ -40,34 +47,26 @@ class Frustum final : public Form {
   }
 
   void inner_feet(Vec3d p, std::vector<Foot>& feet) const override {
-    const Parts at = parts(p);
+    const AxisParts at = parts(p);
     feet.push_back({p - side(at) * normal(at), normal(at)});
     feet.push_back({p - at.along * axis_, -axis_});
     feet.push_back({p + (length_ - at.along) * axis_, axis_});
   }
 
   void outer_feet(Vec3d p, std::vector<Foot>& feet) const override {
-    const Parts at = parts(p);
+    const AxisParts at = parts(p);
     if (side(at) >= 0) feet.push_back({p - side(at) * normal(at), -normal(at)});
     if (at.along <= 0) feet.push_back({p - at.along * axis_, axis_});
     if (at.along >= length_) feet.push_back({p + (length_ - at.along) * axis_, -axis_});
   }
 
  private:
-  struct Parts {
-    double along, radius;
-    Vec3d radial;  // unit vector away from the axis
-  };
-  Parts parts(Vec3d p) const {
-    const double along = dot(p - start_, axis_);
-    const Vec3d away = p - start_ - along * axis_;
-    const double radius = norm(away);
-    const bool known = radius > 1e-12 * (start_radius_ + end_radius_);
-    return {along, radius, known ? away * (1 / radius) : any_across(axis_)};
+  AxisParts parts(Vec3d p) const {
+    return parts_about(start_, axis_, p, 1e-12 * (start_radius_ + end_radius_));
   }
   // Distance from the cone that the side lies on, and its normal.
-  double side(const Parts& at) const { return out_ * (at.radius - start_radius_) + along_ * at.along; }
-  Vec3d normal(const Parts& at) const { return out_ * at.radial + along_ * axis_; }
+  double side(const AxisParts& at) const { return out_ * (at.radius - start_radius_) + along_ * at.along; }
+  Vec3d normal(const AxisParts& at) const { return out_ * at.radial + along_ * axis_; }
 
   Vec3d start_;
   double length_;
@@ -169,10 +168,11 @@ class Prism final : public Form {
 std::shared_ptr<const Form> make_frustum(const FrustumSpec& s) { return std::make_shared<Frustum>(s); }
 std::shared_ptr<const Form> make_prism(const PrismSpec& s) { return std::make_shared<Prism>(s); }
 
-Vec3d any_across(Vec3d axis) {
-  const Vec3d helper = std::abs(axis.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
-  const Vec3d v = cross(axis, helper);
-  return v * (1 / norm(v));
+AxisParts parts_about(Vec3d start, Vec3d axis, Vec3d p, double none) {
+  const double along = dot(p - start, axis);
+  const Vec3d away = p - start - along * axis;
+  const double radius = norm(away);
+  return {along, radius, radius > none ? away * (1 / radius) : any_across(axis)};
 }
 
 }  // namespace slagflow

@@ -10,7 +10,11 @@ namespace slagflow {
 std::shared_ptr<const Form> make_frustum(const FrustumSpec&);
 std::shared_ptr<const Form> make_prism(const PrismSpec&);
 
-// Any unit vector across the given one.
-Vec3d any_across(Vec3d axis);
+// A place about an axis through `start`.
+struct AxisParts {
+  double along, radius;  // [m]
+  Vec3d radial;          // unit vector away from the axis; any across it within `none` [m] of it
+};
+AxisParts parts_about(Vec3d start, Vec3d axis, Vec3d p, double none);
 
 }  // namespace slagflow

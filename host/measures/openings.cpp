@@ -15,8 +15,7 @@ std::string line(const char* pattern, const std::string& name, std::int64_t coun
 
 }  // namespace
 
-Openings::Openings(const Case&, const SimulationSetup& setup)
-    : inlets_(setup.inlets), outlets_(setup.outlets) {}
+Openings::Openings(const SimulationSetup& setup) : inlets_(setup.inlets), outlets_(setup.outlets) {}
 
 std::vector<std::string> Openings::columns() const {
   std::vector<std::string> names;

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "host/case/case.hpp"
 #include "host/output/summary_json.hpp"
 #include "simulation/simulation.hpp"
 
@@ -13,7 +12,7 @@ namespace slagflow {
 class Openings {
  public:
   // `setup`: as it was built from the case.
-  Openings(const Case&, const SimulationSetup& setup);
+  explicit Openings(const SimulationSetup& setup);
 
   // Of the history, and their values now: mass that has come in [kg] and gone out, of each. None without any.
   std::vector<std::string> columns() const;

@@ -35,12 +35,16 @@ double extent(const SimulationSetup& setup, Vec3d along) {
   return high - low + setup.spacing;
 }
 
-// The side of a square as large as a column of an inlet is wide, times the number of columns.
+// [m^2] that its columns fill; with two dimensions a height [m].
+double columns_area(const SimulationSetup& setup, const InletSetup& in) {
+  return std::pow(setup.spacing, setup.dimensions) / in.stride * static_cast<double>(in.share.size());
+}
+
+// The side of a square as large as the largest inlet.
 double face_width(const SimulationSetup& setup) {
   double most = 0;
   for (const InletSetup& in : setup.inlets) {
-    const double area =
-        std::pow(setup.spacing, setup.dimensions) / in.stride * static_cast<double>(in.share.size());
+    const double area = columns_area(setup, in);
     most = std::max(most, setup.dimensions == 2 ? area : std::sqrt(area));
   }
   return most;
@@ -199,8 +203,7 @@ std::string duration(double seconds) {
 
 // What comes through an inlet.
 std::string inlet_text(const SimulationSetup& setup, const InletSetup& in, double last) {
-  const double area =
-      std::pow(setup.spacing, setup.dimensions) / in.stride * static_cast<double>(in.share.size());
+  const double area = columns_area(setup, in);
   const double fastest = in.rate.fastest(), flow = fastest * area;
   const bool flat = setup.dimensions == 2;
   return format("inlet %-10s %zu columns, %.4g %s; up to %.4g m/s, %.4g %s, %.4g kg/s%s; %.6g kg to the end",

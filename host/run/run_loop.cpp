@@ -68,7 +68,7 @@ Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
       start_time_(built_.setup.start_time),
       measures_(built_.resolved, built_.setup),
       losses_(built_.resolved),
-      openings_(built_.resolved, built_.setup) {
+      openings_(built_.setup) {
   counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
   counts_.walls = static_cast<std::int64_t>(built_.setup.walls.position.size());
   particles_now_ = counts_.particles_start;

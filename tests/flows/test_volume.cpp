@@ -28,7 +28,8 @@ TEST(Volume, OfWaterThatFillsAPotStays) {
   EXPECT_NEAR(risen("verification/full_pot.toml", 4), 0, 0.01 * 0.2);
 }
 
-// A jet that a fall has stretched fills no more of a pot than its volume: mean height over half the depth.
+// A jet that a fall has stretched fills no more of a pot than its volume: mean height over half the depth. It
+// was 1.33 without voids that last, and is 1.018; 1.04 leaves room for another build's splashes.
 TEST(Volume, OfAJetThatFallsIntoAPotStays) {
   Flow flow("verification/poured_pot.toml", {"resolution.spacing=0.0075", "inlet.0.radius=0.0225",
                                              "inlet.0.mass_flow=1.4", "inlet.0.stop=0.9"});

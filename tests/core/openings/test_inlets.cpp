@@ -80,7 +80,8 @@ TEST(Inlets, WhatComesInIsInOrHasGone) {
   EXPECT_GT(t.removed[0], 49);
   EXPECT_NEAR(static_cast<double>(t.fed[0]), 49 * 0.35 * 0.3 / dx, 49);  // but for a row
   EXPECT_EQ(t.departed, (std::array<std::int64_t, 6>{}));
-  EXPECT_NEAR(static_cast<double>(t.planes[0].passed), 49 * (0.35 * 0.3 - 0.03) / dx, 98);
+  EXPECT_NEAR(static_cast<double>(t.planes[0].passed), 49 * (0.35 * 0.3 - 0.03) / dx,
+              98);                   // a row, and one on its way to the plane
   EXPECT_EQ(t.planes[1].passed, 0);  // beyond the outlet
 }
 
@@ -203,7 +204,7 @@ TEST(Inlets, SetupsWithoutColumnsAreRefused) {
   EXPECT_THROW(Simulation{s}, InputError);
 }
 
-// With what comes in the energy grows; the watch knows of it, though not of a growth without a source.
+// What comes in brings energy, which the watch would stop the run for if it did not count it.
 TEST(Inlets, WatchTakesWhatComesInForASource) {
   SimulationSetup s = fed_channel();
   s.gravity = {0, 0, -9.81};
