@@ -172,7 +172,7 @@ void check_closed(const WeldedSurface& surface, const std::string& name) {
   if (open > 0)
     throw InputError(name + ": the surface is not closed: " + std::to_string(open) +
                      " open edges, one from " + place(*first_open) +
-                     " in the file's units (corners closer than " + show(tolerance) +
+                     " in the file's units (corners closer than " + length_text(tolerance) +
                      " count as one): allowed: 0, every edge shared by two triangles; a shape's 'thickness' "
                      "makes a plate of an open surface");
   if (against > 0)

@@ -7,7 +7,6 @@
 #include <map>
 
 #include "backend/error.hpp"
-#include "host/case/toml_reader.hpp"
 
 namespace slagflow {
 namespace {
@@ -70,7 +69,7 @@ std::string far_corner(const std::vector<Triangle>& triangles) {
   for (const Triangle& t : triangles)
     for (const Vec3d& v : t)
       if (norm(v) > norm(farthest)) farthest = v;
-  return ": corners closer than " + show(weld_tolerance(triangles)) +
+  return ": corners closer than " + length_text(weld_tolerance(triangles)) +
          " count as one, 1e-5 of the extent; the farthest corner is " + corner_text(farthest);
 }
 
@@ -79,6 +78,12 @@ std::string far_corner(const std::vector<Triangle>& triangles) {
 std::string corner_text(Vec3d v) {
   char text[100];
   std::snprintf(text, sizeof text, "(%.7g, %.7g, %.7g)", v.x, v.y, v.z);
+  return text;
+}
+
+std::string length_text(double length) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", length);
   return text;
 }
 

@@ -18,6 +18,8 @@ struct WeldedSurface {
 // `name` standing for the surface, when none is left.
 WeldedSurface weld(const std::vector<Triangle>& triangles, const std::string& name);
 
+// For messages, rounded.
 std::string corner_text(Vec3d corner);
+std::string length_text(double length);
 
 }  // namespace slagflow
