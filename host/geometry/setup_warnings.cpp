@@ -50,12 +50,16 @@ void warn_of_light_fluids(const Case& c, std::vector<std::string>& warnings) {
 
 // Values of another unit: of melts tungsten has most tension, 2.5 N/m; and angular velocities in rpm.
 void warn_of_other_units(const BuiltCase& built, std::vector<std::string>& warnings) {
-  constexpr double most_tension = 5, fast = 50, turn = 2 * 3.14159265358979323846;  // [N/m], [m/s], [rad]
+  constexpr double most_tension = 5, fast = 50, largest_spacing = 1;  // [N/m], [m/s], [m]
+  constexpr double turn = 2 * 3.14159265358979323846;                 // [rad]
   for (const FluidSpec& fluid : built.resolved.fluids)
     if (fluid.surface_tension > most_tension)
       warnings.push_back("fluid '" + fluid.name + "': a surface_tension of " + show(fluid.surface_tension) +
                          " N/m, more than any melt has; is it meant in mN/m? Then surface_tension = " +
                          show(fluid.surface_tension / 1000));
+  if (built.resolved.spacing > largest_spacing)
+    warnings.push_back("resolution.spacing = " + show(built.resolved.spacing) +
+                       " m: lengths are in metres; if the case is drawn in mm, all of them are a thousandth");
   for (const SoundSpeedTerm& term : built.sound_speed_terms)
     if (term.name == "walls" && term.speed > fast) {
       std::array<char, 200> text{};

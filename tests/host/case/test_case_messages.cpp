@@ -204,5 +204,14 @@ TEST(CaseMessages, MeasuresAreLimited) {
               HasSubstr("key 'measure': 256 entries of type \"volume\": allowed: up to 255"));
 }
 
+TEST(CaseMessages, NamesAFileOfResults) {
+  EXPECT_THAT(error_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)), HasSubstr("HDF5, as the results of a run"));
+}
+
+TEST(CaseMessages, SayWhereTheLeastIntervalComesFrom) {
+  EXPECT_THAT(error_of("[output]\nend_time = 1e6\ninterval = 0.01\n"),
+              HasSubstr("allowed: a number >= 1.0 [s, end_time / 1e+06]"));
+}
+
 }  // namespace
 }  // namespace slagflow
