@@ -76,12 +76,12 @@ class Plot(unittest.TestCase):
         (self.folder / "history.csv").write_text(HISTORY)
 
     def run_script(self, *arguments):
-        return subprocess.run([PROJECT / "scripts/plot", *map(str, arguments)], capture_output=True, text=True)
+        return subprocess.run([PROJECT / "scripts/plot", "--no-surface", *map(str, arguments)], capture_output=True, text=True)
 
     def plot(self, *arguments):
         """The same in this process, and the flow at a quarter of the resolution."""
         out, errors = io.StringIO(), io.StringIO()
-        with (mock.patch.object(flow, "DPI", flow.DPI / 4), mock.patch.object(sys, "argv", ["plot", *map(str, arguments)]),
+        with (mock.patch.object(flow, "DPI", flow.DPI / 4), mock.patch.object(sys, "argv", ["plot", "--no-surface", *map(str, arguments)]),
               contextlib.redirect_stdout(out), contextlib.redirect_stderr(errors)):
             status = PLOT.main()
         return types.SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=errors.getvalue())

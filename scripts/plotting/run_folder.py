@@ -1,11 +1,15 @@
 """Reads the folder of a run: VTKHDF snapshots, the case and the history."""
 
 import csv
+import json
 import math
 import tomllib
 
 import h5py
 import numpy as np
+
+
+UNITS = {"density": "kg/m³", "dynamic_viscosity": "Pa s", "plastic_viscosity": "Pa s", "consistency": "Pa sⁿ", "yield_stress": "Pa"}
 
 
 class RunFolderError(Exception):
@@ -74,6 +78,36 @@ class RunFolder:
     @property
     def dimensions(self):
         return int(self._case["resolution"].get("dimensions", 3))
+
+    def summary(self):
+        """What summary.json holds; empty where the run has not ended."""
+        try:
+            return json.loads((self.path / "summary.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+
+    def fluids_in_words(self):
+        """By name: density, rheology and its parameters as the case gives them, in SI units."""
+        words = {}
+        for name, fluid in self._case.get("fluid", {}).items():
+            numbers = [f"{value:.4g} {UNITS[key]}" for key, value in fluid.items() if key in UNITS]
+            words[name] = ", ".join([str(fluid.get("rheology", "")), *numbers]).strip(", ")
+        return words
+
+    def keys(self):
+        """The values of the case by their dotted keys."""
+        flat = {}
+
+        def add(value, key):
+            table = isinstance(value, dict)
+            if table or (isinstance(value, list) and any(isinstance(part, (dict, list)) for part in value)):
+                for name, part in value.items() if table else enumerate(value):
+                    add(part, f"{key}.{name}" if key else str(name))
+            else:
+                flat[key] = value
+
+        add(self._case, "")
+        return flat
 
     def nearest_steps(self, times):
         """Numbers of the steps written nearest to the times, in order, each once."""

@@ -1,0 +1,149 @@
+"""Tests of the pictures of free surfaces. With a test's name as argument only that one is run."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+from test_plot import HISTORY, PLOT, PROJECT, SPACING, write_vtkhdf
+
+import h5py
+import matplotlib.image
+import numpy as np
+from plotting import surface
+from plotting.run_folder import RunFolder
+
+PYTHON = PROJECT / ".venv/bin/python"
+SIDE = 8  # particles along the edge of the block
+
+
+def tools_are_there():
+    command = [PYTHON, "-c", "import pysplashsurf, pyvista"]
+    return PYTHON.exists() and subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+class Surface(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def make_run(self, name="run", viscosity=1.0, speed=1.0):
+        """A block on a floor, faster the higher: up to `speed` m/s; two times."""
+        folder = self.folder / name
+        folder.mkdir()
+        along = (np.arange(SIDE) + 0.5) * SPACING
+        block = np.stack(np.meshgrid(along, along, along), axis=-1).reshape(-1, 3)
+        velocity = np.zeros_like(block)
+        velocity[:, 0] = speed * block[:, 2] / block[:, 2].max()
+        write_vtkhdf(folder / "particles.vtkhdf", [0, 0.1], [block, block], [0 * velocity, velocity])
+        with h5py.File(folder / "particles.vtkhdf", "a") as file:
+            file["VTKHDF/PointData/Fluid"] = np.tile((block[:, 0] > 0.04).astype(np.uint8), 2)
+        floor = block[block[:, 2] < 4 * SPACING] - [0, 0, 4 * SPACING]
+        write_vtkhdf(folder / "walls.vtkhdf", [0], [floor], [0 * floor])
+        (folder / "case.toml").write_text(
+            f'[case]\nname = "block"\n[resolution]\nspacing = {SPACING}\n[fluid.oil]\ndensity = 900\nrheology = "newtonian"\n'
+            f'dynamic_viscosity = {viscosity}\n[fluid.slag]\ndensity = 2700\n[[wall]]\nshapes = [{{shape = "box", min = [0, 0, 0]}}]\n')
+        (folder / "history.csv").write_text(HISTORY)
+        return folder
+
+    def plot(self, *arguments):
+        return subprocess.run([PROJECT / "scripts/plot", *map(str, arguments)], capture_output=True, text=True, check=False)
+
+    def need_tools(self):
+        if not tools_are_there():
+            self.skipTest("pysplashsurf and PyVista are not installed")
+
+    def colours(self, picture):
+        """Pixels that are neither grey nor white, shape (pixels, 3)."""
+        pixels = matplotlib.image.imread(picture)[:, :, :3]
+        return pixels[np.ptp(pixels, axis=2) > 0.25]
+
+    def test_is_drawn_first_and_has_the_colours_of_the_scale(self):
+        self.need_tools()
+        folder = self.make_run()
+        done = self.plot(folder, "--times", "0.1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual([Path(p).name for p in done.stdout.split()], ["surface.png", "flow.png", "history.png"])
+        seen = self.colours(folder / "pictures/surface.png")
+        self.assertGreater(len(seen), 20000)
+        yellow, violet = np.array([0.99, 0.91, 0.14]), np.array([0.28, 0.12, 0.44])  # the ends of the scale
+        for end in (yellow, violet):
+            self.assertLess(np.abs(seen - end).sum(axis=1).min(), 0.35)
+
+    def test_encloses_the_volume_of_the_particles(self):
+        self.need_tools()
+        folder = self.make_run()
+        code = (f"from pathlib import Path; from plotting import surface; from plotting.run_folder import RunFolder; "
+                f"r = RunFolder(Path({str(folder)!r})); m = surface.Meshes(r, surface.Quantity(r, [1], 'speed')).fluid(1); "
+                f"print(m.volume, *m.bounds, m.is_all_triangles, m['value'].max())")
+        made = subprocess.run([PYTHON, "-c", code], cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)
+        words = made.stdout.split()
+        edge = SIDE * SPACING
+        self.assertAlmostEqual(float(words[0]) / edge**3, 1, delta=0.12)
+        for k, wanted in enumerate((0, edge) * 3):
+            self.assertAlmostEqual(float(words[1 + k]), wanted, delta=0.6 * SPACING)
+        self.assertAlmostEqual(float(words[-1]), 100, delta=8)  # cm/s
+
+    def test_runs_stand_side_by_side_on_one_scale(self):
+        self.need_tools()
+        slow, fast = self.make_run("slow", 2.0, 0.2), self.make_run("fast", 1.0, 1.0)
+        done = self.plot(slow, fast, "--compare", "--times", "0.1")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        picture = slow / "pictures/compare.png"
+        self.assertEqual(done.stdout.split(), [str(picture)])
+        pixels = matplotlib.image.imread(picture)[200:, :, :3]
+        yellow = (pixels[:, :, 0] > 0.6) & (pixels[:, :, 2] < 0.35)
+        half = pixels.shape[1] // 2
+        self.assertEqual(yellow[:, :half].sum(), 0)
+        self.assertGreater(yellow[:, half:].sum(), 500)
+
+    def test_fluids_have_their_names(self):
+        self.need_tools()
+        folder = self.make_run()
+        done = self.plot(folder, "--colour", "fluid", "--times", "0")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        seen = self.colours(folder / "pictures/surface.png")
+        self.assertGreater(((seen[:, 0] > seen[:, 2] + 0.2).sum()), 2000)  # red
+        self.assertGreater(((seen[:, 2] > seen[:, 0] + 0.2).sum()), 2000)  # blue
+
+    def test_a_quantity_that_was_not_written_is_an_error(self):
+        self.need_tools()
+        done = self.plot(self.make_run(), "--colour", "viscosity")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the run has not written what 'viscosity' needs", done.stderr)
+
+    def test_without_the_tools_particles_are_drawn_and_it_is_told(self):
+        folder = self.make_run()
+        with mock.patch.object(PLOT, "TOP", self.folder), mock.patch.object(sys, "argv", ["plot", str(folder)]), \
+                mock.patch("sys.stderr") as errors:
+            self.assertEqual(PLOT.main(), 0)
+        told = "".join(str(call.args[0]) for call in errors.write.call_args_list)
+        self.assertIn("surface.png is not drawn: `scripts/install --pictures` brings what draws surfaces", told)
+        self.assertTrue((folder / "pictures/flow.png").is_file())
+
+    def test_compare_needs_two_runs(self):
+        folder = self.make_run()
+        self.assertIn("--compare: allowed: two runs and more", self.plot(folder, "--compare").stderr)
+        self.assertIn("several folders: allowed: with --compare", self.plot(folder, folder).stderr)
+
+    def test_titles_are_the_keys_that_differ(self):
+        runs = [RunFolder(self.make_run(f"run{k}", viscosity=k + 1.0)) for k in range(2)]
+        self.assertEqual(surface.titles_of(runs), ["dynamic_viscosity = 1.0", "dynamic_viscosity = 2.0"])
+        self.assertEqual(surface.titles_of([runs[0], runs[0]]), ["run0", "run0"])
+
+    def test_slow_speeds_are_in_centimetres_and_the_caption_tells_the_fluids(self):
+        run = RunFolder(self.make_run(speed=0.2))
+        quantity = surface.Quantity(run, [1], "speed")
+        self.assertAlmostEqual(quantity.limits[1], 0.2, delta=0.01)
+        quantity.share((0, 0.2))
+        self.assertEqual((quantity.label, quantity.factor, quantity.limits), ("speed  [cm/s]", 100, (0, 20)))
+        quantity.share((0, 2.0))
+        self.assertEqual((quantity.label, quantity.limits), ("speed  [m/s]", (0, 2.0)))
+        self.assertEqual(surface.caption(run), "oil: newtonian, 900 kg/m³, 1 Pa s; slag: 2700 kg/m³; spacing 10 mm")
+
+
+if __name__ == "__main__":
+    unittest.main()
