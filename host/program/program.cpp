@@ -33,7 +33,7 @@ struct Arguments {
   std::string topic;
   HelpForm help = HelpForm::text;
   std::string from;
-  bool json = false;
+  bool json = false, calibrate = false;
   std::vector<std::string> overrides;
   RunOptions run;
   RheometryOptions rheometry;
@@ -87,7 +87,7 @@ int resume(Arguments arguments) {
 
 int check(const Arguments& arguments) {
   const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
-  const CaseCheck found = check_case(built);
+  const CaseCheck found = check_case(built, machine_speed(built.setup.dimensions, arguments.calibrate));
   if (arguments.json)
     print(Json::object().set("case", arguments.file).set("valid", true).set("check", to_json(found)).text() +
           "\n");
@@ -263,6 +263,8 @@ int dispatch(int argc, const char* const* argv) {
   add_case(check_command, arguments)->required();
   add_set(check_command, arguments, set_a_key);
   check_command->add_flag("--json", arguments.json, "print it as JSON, numbers in SI units");
+  check_command->add_flag("--calibrate", arguments.calibrate,
+                          "measure anew how fast this machine computes, which takes a second");
   CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
   CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);
