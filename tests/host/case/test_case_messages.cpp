@@ -58,7 +58,7 @@ TEST(CaseMessages, AllKeysOfATableAreListedThoughItsTypeIsWrong) {
       AllOf(HasSubstr("did you mean 'front'?"),
             HasSubstr("'measure.0.direktion': unknown: did you mean 'direction'? allowed: name, type, "
                       "fraction, direction, position, lip, outward, bottom, min, max, start, end, "
-                      "points, wall, about")));
+                      "points, rows, across, wall, about, center, normal, height, width, up, outlet")));
 }
 
 TEST(CaseMessages, KeysThatAreWrittenOtherwiseAreGuessed) {
