@@ -24,12 +24,12 @@ const char* const block = R"(
 [case]
 name = "speed"
 [resolution]
-spacing = 0.01
+spacing = 0.005
 [fluid.slag]
 density = 2600
 rheology = "bingham"
 plastic_viscosity = 1
-yield_stress = 5
+yield_stress = 50
 [[wall]]
 name = "floor"
 shapes = [{shape="plane", point=[0, 0, 0], normal=[0, 0, 1]}]
@@ -40,17 +40,17 @@ end_time = 1000
 std::string block_text(int dimensions) {
   return std::string(block) + (dimensions == 2 ? R"(
 [[region]]
-shapes = [{shape="box", min=[0, -1, 0], max=[0.6, 1, 0.6]}]
+shapes = [{shape="box", min=[0, -1, 0], max=[0.3, 1, 0.3]}]
 [domain]
 min = [-0.2, -1, -0.03]
-max = [1.2, 1, 0.8]
+max = [0.5, 1, 0.4]
 )"
                                                : R"(
 [[region]]
-shapes = [{shape="box", min=[0, 0, 0], max=[0.16, 0.16, 0.16]}]
+shapes = [{shape="box", min=[0, 0, 0], max=[0.08, 0.08, 0.08]}]
 [domain]
-min = [-0.1, -0.1, -0.03]
-max = [0.3, 0.3, 0.2]
+min = [-0.05, -0.05, -0.03]
+max = [0.13, 0.13, 0.1]
 )");
 }
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <set>
+#include <unordered_map>
 
 #include "host/geometry/geometry.hpp"
 
@@ -19,11 +19,12 @@ class Sites {
  public:
   Sites(const SimulationSetup& setup, Vec3d origin) : setup_(setup) {
     const std::vector<Vec3d>& all = setup.particles.position;
+    site_.reserve(all.size()), particle_.reserve(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       Site site{};
       for (int k = 0; k < 3; ++k)
         site[static_cast<std::size_t>(k)] = std::llround((all[i][k] - origin[k]) / setup.spacing - 0.5);
-      site_.push_back(site), particle_.emplace(site, i);
+      site_.push_back(site), particle_.emplace(number(site), i);
     }
   }
 
@@ -32,7 +33,7 @@ class Sites {
   // The particle some sites away.
   std::size_t beside(std::size_t i, const Site& by) const {
     const Site& own = site_[i];
-    const auto found = particle_.find({own[0] + by[0], own[1] + by[1], own[2] + by[2]});
+    const auto found = particle_.find(number({own[0] + by[0], own[1] + by[1], own[2] + by[2]}));
     return found == particle_.end() ? none : found->second;
   }
 
@@ -47,6 +48,12 @@ class Sites {
  private:
   static constexpr std::int64_t longest = 100;
 
+  // 21 bits an axis.
+  static std::uint64_t number(const Site& site) {
+    std::uint64_t all = 0;
+    for (const std::int64_t place : site) all = (all << 21) | (static_cast<std::uint64_t>(place) & 0x1fffff);
+    return all;
+  }
   int kind(std::size_t i) const { return i < setup_.particles.fluid.size() ? setup_.particles.fluid[i] : 0; }
 
   std::int64_t row(std::size_t i, std::size_t axis) const {
@@ -64,7 +71,7 @@ class Sites {
 
   const SimulationSetup& setup_;
   std::vector<Site> site_;
-  std::map<Site, std::size_t> particle_;
+  std::unordered_map<std::uint64_t, std::size_t> particle_;
 };
 
 // All that hangs together with a particle.
