@@ -171,7 +171,8 @@ enum class MeasureType {
   flux,
   surface,
   contact,
-  residence
+  residence,
+  mixing
 };
 
 struct MeasureSpec {
@@ -183,7 +184,9 @@ struct MeasureSpec {
   Vec3d lip;                     // [m] jet: the dam's lip
   Direction outward;             // jet: horizontal, away from the wall
   double bottom = 0;             // [m] jet: coordinate along gravity's axis where the leading edge arrives
-  Vec3d min, max;                // [m] volume: the box
+  Vec3d min, max;                // [m] volume, mixing: the box
+  double cell = 0;               // [m] mixing: side of a cell; 0: five spacings
+  int fluid = 0;                 // mixing: index into Case::fluids
   Vec3d start, end;              // [m] profile, level, surface: the line
   int points = 50;               // profile, surface: on the line, both ends included
   Vec3d across;                  // [m] surface: from the first line to the last

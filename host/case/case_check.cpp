@@ -160,6 +160,7 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
     case MeasureType::jet:
       return check_jet(c, index, problems);
     case MeasureType::volume:
+    case MeasureType::mixing:
       return check_box(c, measure_key(index), c.measures[index].min, c.measures[index].max, problems);
     case MeasureType::profile:
     case MeasureType::level:

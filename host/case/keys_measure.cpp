@@ -5,8 +5,8 @@
 namespace slagflow {
 namespace {
 
-const Words measure_names{"front", "jet",  "flow_rate", "volume",  "profile",  "force",
-                          "level", "flux", "surface",   "contact", "residence"};
+const Words measure_names{"front", "jet",  "flow_rate", "volume",  "profile",   "force",
+                          "level", "flux", "surface",   "contact", "residence", "mixing"};
 
 void describe_direction(CaseVisitor& v, const Key& k, Direction& direction) {
   int index = index_of(direction);
@@ -62,10 +62,13 @@ void describe_points(CaseVisitor& v, MeasureSpec& m) {
 }
 
 void describe_wall_of(CaseVisitor& v, const Case& c, MeasureSpec& m) {
-  Words names;
-  for (const WallSpec& wall : c.walls) names.push_back(wall.name);
-  v.reference(required("wall", "name of the wall"), m.wall, names, "a wall");
-  if (const auto with = v.only(m.type == MeasureType::force, {"type", {"force"}}))
+  const bool force = m.type == MeasureType::force;
+  if (const auto with = v.only(force || m.type == MeasureType::contact, {"type", {"force", "contact"}})) {
+    Words names;
+    for (const WallSpec& wall : c.walls) names.push_back(wall.name);
+    v.reference(required("wall", "name of the wall"), m.wall, names, "a wall");
+  }
+  if (const auto with = v.only(force, {"type", {"force"}}))
     v.vector(key("about", "point of the torque"), m.about, any_number("m"));
 }
 
@@ -86,6 +89,19 @@ void describe_flux(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   }
 }
 
+// A case with one fluid has nothing that mixes.
+void describe_mixing(CaseVisitor& v, const Case& c, MeasureSpec& m) {
+  Words names;
+  for (const FluidSpec& fluid : c.fluids) names.push_back(fluid.name);
+  v.reference(required("fluid", "name of the fluid whose share is looked at"), m.fluid, names, "a fluid");
+  v.number(key("cell", "side of the cells").by_default("five spacings"), m.cell, at_least(0, "m"));
+  if (c.fluids.size() == 1)
+    v.problem(
+        "type",
+        "value \"mixing\" with one fluid: allowed: two or more, which may be alike: they tell what comes "
+        "from where");
+}
+
 void describe_residence(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   Words names;
   for (const OutletSpec& outlet : c.outlets) names.push_back(outlet.name);
@@ -97,16 +113,17 @@ void describe_measure(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   describe_own_name(v, required("name", "unique; letters, digits, _ - ."), c.measures, m);
   if (!v.choice(required("type", "see Measures"), m.type, measure_names)) return;
   describe_passing(v, m);
-  if (const auto with = v.only(m.type == MeasureType::volume, {"type", {"volume"}})) describe_volume(v, m);
+  if (const auto with = v.only(m.type == MeasureType::volume || m.type == MeasureType::mixing,
+                               {"type", {"volume", "mixing"}}))
+    describe_volume(v, m);
   const auto is = [&](MeasureType type) { return m.type == type; };
   if (const auto with = v.only(is(MeasureType::profile) || is(MeasureType::level) || is(MeasureType::surface),
                                {"type", {"profile", "level", "surface"}}))
     describe_line(v, m);
   describe_points(v, m);
-  if (const auto with =
-          v.only(is(MeasureType::force) || is(MeasureType::contact), {"type", {"force", "contact"}}))
-    describe_wall_of(v, c, m);
+  describe_wall_of(v, c, m);
   if (const auto with = v.only(is(MeasureType::flux), {"type", {"flux"}})) describe_flux(v, c, m);
+  if (const auto with = v.only(is(MeasureType::mixing), {"type", {"mixing"}})) describe_mixing(v, c, m);
   if (const auto with = v.only(is(MeasureType::residence), {"type", {"residence"}}))
     describe_residence(v, c, m);
 }

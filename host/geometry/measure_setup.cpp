@@ -68,6 +68,8 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
       return setup.contacts.push_back(static_cast<std::size_t>(measure.wall));
     case MeasureType::residence:
       return setup.residences.push_back(static_cast<std::size_t>(measure.outlet));
+    case MeasureType::mixing:  // of a snapshot
+      return;
     case MeasureType::force:
       setup.measure_walls = true;
   }

@@ -100,6 +100,7 @@ void warn_of_missed_plane(const MeasureSpec& measure, std::vector<std::string>& 
       if (measure.outward.axis == 1) warn("goes along y");
       return;
     case MeasureType::volume:
+    case MeasureType::mixing:
       if (measure.min.y > 0 || measure.max.y < 0)
         warn("has y from " + show(measure.min.y) + " to " + show(measure.max.y) + " m");
       return;

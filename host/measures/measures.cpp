@@ -9,6 +9,7 @@
 #include "host/measures/measure_force.hpp"
 #include "host/measures/measure_front.hpp"
 #include "host/measures/measure_level.hpp"
+#include "host/measures/measure_mixing.hpp"
 #include "host/measures/measure_residence.hpp"
 #include "host/measures/measure_surface.hpp"
 #include "host/measures/measure_volume.hpp"
@@ -29,6 +30,8 @@ std::unique_ptr<Measure> make_probe(const MeasureSpec& spec, const SimulationSet
       return std::make_unique<FluxMeasure>(spec, setup, next.fluxes++);
     case MeasureType::surface:
       return std::make_unique<SurfaceMeasure>(spec, setup, next.surfaces++);
+    case MeasureType::mixing:
+      return std::make_unique<MixingMeasure>(spec, setup);
     case MeasureType::contact:
       return std::make_unique<ContactMeasure>(spec, setup, next.contacts++);
     default:

@@ -7,6 +7,7 @@
 #include "backend/error.hpp"
 #include "host/geometry/measure_setup.hpp"
 #include "host/geometry/setup_builder.hpp"
+#include "host/measures/measure_mixing.hpp"
 #include "host/measures/measures.hpp"
 
 namespace slagflow {
@@ -155,6 +156,58 @@ TEST(ResidenceMeasure, HasTheAgesOfWhatLeaves) {
   expect_restored(m);
 }
 
+using Cells = std::vector<std::array<double, 2>>;
+
+TEST(Mixing, IsNoneWhereFluidsAreApartAndOneWhereTheyAreAsAtRandom) {
+  EXPECT_NEAR(mixing_of(Cells{{100, 100}, {0, 100}}, 100).index, 0, 1e-12);
+  EXPECT_NEAR(mixing_of(Cells{{50, 100}, {50, 100}}, 100).index, 1, 1e-12);
+  // Shares of 0.75 and 0.25: (0.25 - 0.0625)/(0.25 - 0.0025).
+  EXPECT_NEAR(mixing_of(Cells{{75, 100}, {25, 100}}, 100).index, 0.1875 / 0.2475, 1e-12);
+  EXPECT_NEAR(mixing_of(Cells{{75, 100}, {25, 100}}, 100).share, 0.5, 1e-12);
+  // At random: s^2 = p (1 - p)/n.
+  EXPECT_NEAR(mixing_of(Cells{{55, 100}, {45, 100}}, 100).index, 1, 1e-12);
+  // A cell that is nearly empty is left out; one fluid alone has no index.
+  EXPECT_NEAR(mixing_of(Cells{{50, 100}, {50, 100}, {20, 20}}, 100).share, 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(mixing_of(Cells{{100, 100}, {100, 100}}, 100).index));
+  EXPECT_TRUE(std::isnan(mixing_of(Cells{}, 100).share));
+}
+
+TEST(MixingMeasure, LooksAtTheCellsOfItsBox) {
+  // Oil of another name lies on the oil, in layers of six: cells of three see them apart, one of twelve
+  // mixed.
+  std::string text = tank_of(box, measure("type = \"mixing\"\nfluid = \"upper\"\nmin = [0, 0, 0]\n"
+                                          "max = [0.18, 0.09, 0.12]\ncell = 0.03\n") +
+                                      "[[measure]]\nname = \"coarse\"\ntype = \"mixing\"\nfluid = \"oil\"\n"
+                                      "min = [0, 0, 0]\nmax = [0.12, 0.1, 0.12]\ncell = 0.12\n");
+  text.replace(text.find("[[region]]"), 10, R"([fluid.upper]
+density = 1000
+rheology = "newtonian"
+dynamic_viscosity = 1
+[[region]]
+fluid = "upper"
+shapes = [{shape="box", min=[0, 0, 0.06], max=[0.2, 0.1, 0.12]}]
+[[region]]
+fluid = "oil")");
+  const Case c = parse_case(text, "tank.toml");
+  const BuiltCase built = build_setup(c);
+  Measures measures(c, built.setup);
+  Simulation simulation(built.setup);
+  FluidSnapshot snapshot;
+  simulation.read(snapshot);
+  const auto read = [&]() -> const FluidSnapshot& { return snapshot; };
+  const std::vector<double> values = measures.update(0, simulation.totals(), read);
+  EXPECT_EQ(measures.columns(),
+            (std::vector<std::string>{"m_index", "m_share", "coarse_index", "coarse_share"}));
+  EXPECT_NEAR(values[0], 0, 1e-9);
+  EXPECT_NEAR(values[1], 0.5, 1e-9);
+  EXPECT_NEAR(values[2], 1, 1e-9);
+  EXPECT_NEAR(values[3], 0.5, 1e-9);
+  EXPECT_THAT(measures.lines()[0], HasSubstr("index 0 of upper, 50 % of the fluid in its box"));
+  Measures again(c, built.setup);
+  again.restore(measures.state());
+  EXPECT_EQ(again.lines(), measures.lines());
+}
+
 TEST(ProbeKeys, AreRefusedWithPlaceAndWhatIsAllowed) {
   const std::string flux = "type = \"flux\"\ncenter = [0.2, 0.05, 0.1]\nheight = 0.1\nwidth = 0.2\n";
   EXPECT_EQ(message_of_measure(flux + "normal = [1, 0, 0]\n"), "no error");
@@ -177,6 +230,8 @@ TEST(ProbeKeys, AreRefusedWithPlaceAndWhatIsAllowed) {
               HasSubstr("value 5000 makes 250000 columns: allowed: points times rows up to 100000"));
   EXPECT_THAT(message_of_measure("type = \"surface\"\nstart = [0.05, 0.03, 0]\nend = [0.05, 0.03, 0.1]\n"),
               HasSubstr("is straight above or below the start: allowed: a line across gravity"));
+  EXPECT_THAT(message_of_measure("type = \"mixing\"\nfluid = \"oil\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n"),
+              HasSubstr("value \"mixing\" with one fluid: allowed: two or more"));
   EXPECT_THAT(message_of_measure("type = \"level\"\nrows = 2\n"),
               HasSubstr("rows goes with type = \"surface\""));
 }
