@@ -16,9 +16,11 @@ constexpr std::streamoff largest_file = 16 << 20;  // a case file is a few kB; m
 
 std::string read_text(const std::string& path) {
   std::error_code failure;
-  std::ifstream stream(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = stream ? static_cast<std::streamoff>(stream.tellg()) : -1;
-  if (size < 0 || !std::filesystem::is_regular_file(path, failure)) {
+  const bool regular = std::filesystem::is_regular_file(path, failure);  // a pipe would wait for its writer
+  std::ifstream stream;
+  if (regular) stream.open(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream.is_open() ? static_cast<std::streamoff>(stream.tellg()) : -1;
+  if (size < 0) {
     const bool there = std::filesystem::exists(path, failure);
     const bool folder = std::filesystem::is_directory(path, failure);
     throw InputError(path + ": " +

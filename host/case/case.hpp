@@ -45,10 +45,14 @@ struct PrismSpec {
   std::vector<std::array<double, 2>> points;  // [m] along the other two axes in the order x, y, z
   double from = 0, to = 0;                    // [m] along the axis
 };
+enum class PlateSide { back, front, middle };  // of a surface that gets a thickness
+
 struct StlSpec {
-  std::string file;  // absolute path
-  double scale = 1;  // [m] per unit of the file
-  Vec3d translate;   // [m], added after scaling
+  std::string file;      // absolute path
+  double scale = 1;      // [m] per unit of the file
+  Vec3d translate;       // [m], added after scaling
+  double thickness = 0;  // [m] of a surface that encloses no volume; 0: it does
+  PlateSide side = PlateSide::back;
 };
 
 struct ShapeSpec {

@@ -135,7 +135,7 @@ CatalogueKey CaseCataloguer::entry(Form form, const Key& k, const std::string& f
   if (k.need == Need::optional) found.fallback = k.fallback.empty() ? fallback : k.fallback;
   for (const auto& [where, reason] : conditions_) {
     found.where.push_back(where);
-    if (!reason.empty()) found.reason = reason;
+    if (!reason.empty()) found.reason = reason, found.reason_of = found.where.size() - 1;
   }
   return found;
 }

@@ -37,11 +37,12 @@ struct CatalogueKey {
   std::string unit;
   std::string allowed;  // "> 0.0", "1.5 to 4.0"; empty: anything of the form
   Range range;
-  Words words;               // of choices
-  std::string word;          // in place of the number
-  std::string inside;        // of a table: the name of the table of its keys
-  std::vector<Where> where;  // all of them hold; empty: everywhere
-  std::string reason;        // why it does not go elsewhere
+  Words words;                // of choices
+  std::string word;           // in place of the number
+  std::string inside;         // of a table: the name of the table of its keys
+  std::vector<Where> where;   // all of them hold; empty: everywhere
+  std::string reason;         // why it does not go elsewhere
+  std::size_t reason_of = 0;  // the condition whose reason that is
 
   bool is_table() const { return form >= Form::table; }
   std::string path() const;        // fluid.NAME.yield_stress

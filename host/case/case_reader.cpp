@@ -186,6 +186,18 @@ bool CaseReader::undecided(const Frame& frame, const CatalogueKey& k) {
   });
 }
 
+// Whether a word that is given, and not what the reason is about, keeps the key out.
+bool CaseReader::kept_out_by_word(Frame& frame, const CatalogueKey& k) {
+  for (std::size_t c = 0; c < k.where.size(); ++c) {
+    const Where& where = k.where[c];
+    if (c == k.reason_of || where.words.empty() || !frame.table.has(where.what.c_str())) continue;
+    if (std::none_of(where.words.begin(), where.words.end(),
+                     [&](const std::string& word) { return frame.table.says(where.what.c_str(), word); }))
+      return true;
+  }
+  return false;
+}
+
 // What was asked for, and what would be if the choices were known.
 Words CaseReader::allowed_in(const Frame& frame) {
   Words allowed = frame.table.known();
@@ -205,7 +217,7 @@ void CaseReader::report_unknown(Frame& frame) {
   for (const std::string& name : unknown) {
     const CatalogueKey* const known = catalogue().find(frame.described, name);
     if (known && undecided(frame, *known)) continue;
-    if (known && !known->reason.empty())
+    if (known && !known->reason.empty() && !kept_out_by_word(frame, *known))
       frame.table.refuse(name.c_str(), known->reason);
     else if (known)
       frame.table.report_unknown(name, all + "; " + name + " goes with " + known->where_text());

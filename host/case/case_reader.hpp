@@ -30,6 +30,7 @@ class CaseReader : public CaseVisitor {
   bool choice_or_number(const Key&, int& index, const Words&, double&, const Range&) override;
 
   bool given(std::initializer_list<const char*> keys) const override;
+  bool given_by_set(const char* name) const override { return frames_.back().table.set(name); }
   void problem(const std::string& name, const std::string& what) override;
   // Reports the keys of the file's top level that are not known. Once, at the end.
   void finish();
@@ -60,6 +61,7 @@ class CaseReader : public CaseVisitor {
   void enter(CaseTable table, const std::string& described);
   void report_unknown(Frame& frame);
   static bool undecided(const Frame& frame, const CatalogueKey& k);
+  static bool kept_out_by_word(Frame& frame, const CatalogueKey& k);
   static Words allowed_in(const Frame& frame);
 
   std::vector<Frame> frames_;

@@ -141,6 +141,10 @@ std::string CaseTable::key_path(const std::string& key) const {
 
 bool CaseTable::has(const char* key) const { return table_ && table_->as_table().count(key) > 0; }
 
+bool CaseTable::set(const char* key) const {
+  return has(key) && problems_->place_of(table_->as_table().at(key)).order == override_order;
+}
+
 bool CaseTable::is_list(const char* key) const { return has(key) && table_->as_table().at(key).is_array(); }
 
 void CaseTable::refuse(const char* key, const std::string& reason) {

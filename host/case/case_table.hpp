@@ -116,6 +116,8 @@ class CaseTable {
 
   bool has(const char* key) const;
   bool from_override() const { return place_.order == override_order; }
+  // Whether the key is given by --set.
+  bool set(const char* key) const;
   bool faulty() const { return !problems_->fine_within(path_); }
   bool is_list(const char* key) const;
   // Reports the key, if it is given, as one that does not go with the others.

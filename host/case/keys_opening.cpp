@@ -1,6 +1,7 @@
 // [[inlet]] and [[outlet]]: where fluid comes in and goes out.
 #include <algorithm>
 #include <functional>
+#include <iterator>
 
 #include "host/case/case_keys.hpp"
 #include "host/case/case_rules.hpp"
@@ -33,21 +34,26 @@ std::string fault_of(const CaseVisitor::Rows& rows) {
   return "";
 }
 
-// One of three. A resolved case has the one that was given.
+// One of three. A resolved case has the one that was given; one of --set takes the place of the file's.
 void describe_feed(CaseVisitor& v, InletSpec& inlet) {
+  const bool anew =
+      std::any_of(std::begin(feeds), std::end(feeds), [&](const Feed& f) { return v.given_by_set(f.name); });
   int given = 0;
   for (int k = 0; k < 3; ++k) {
     if (!v.takes_defaults() && k != static_cast<int>(inlet.feed)) continue;
     const Feed& feed = feeds[k];
     CaseVisitor::Rows rows;
     if (!v.takes_defaults()) rows = inlet.rows;
+    double value = inlet.value;
     const Key one =
         key(feed.name, std::string(feed.meaning) + ": one of velocity, volume_flow and mass_flow");
-    if (v.given({feed.name})) ++given;
-    if (!v.number_or_rows(Key(one).by_default("one of the three is required"), inlet.value,
-                          at_least(0, feed.unit), rows, rows_allowed))
+    const bool taken = !anew || v.given_by_set(feed.name);
+    if (taken && v.given({feed.name})) ++given;
+    if (!v.number_or_rows(Key(one).by_default("one of the three is required"), value, at_least(0, feed.unit),
+                          rows, rows_allowed) ||
+        !taken)
       continue;
-    inlet.feed = static_cast<InletFeed>(k), inlet.rows = rows;
+    inlet.feed = static_cast<InletFeed>(k), inlet.value = value, inlet.rows = rows;
     const std::string fault = fault_of(rows);
     if (!fault.empty()) v.problem(feed.name, fault);
   }

@@ -39,7 +39,9 @@ void describe(CaseVisitor& v, OutputSpec& o) {
                "are whole again; --until sets it")
                .or_word("end_time", 0),
            o.until, above(0, "s"));
-  const auto interval = [&](double most) { return timed ? at_least(o.end_time / most, "s") : above(0, "s"); };
+  const auto interval = [&](double most) {
+    return timed ? at_least(o.end_time / most, "s, end_time / " + show(most)) : above(0, "s");
+  };
   if (v.takes_defaults()) o.interval = o.end_time / 50;
   v.number(key("interval", "between snapshots").by_default("end_time/50"), o.interval,
            interval(most_snapshots));

@@ -44,7 +44,14 @@ void describe(CaseVisitor& v, SphereSpec& sphere, const std::string&) {
 }
 
 void describe(CaseVisitor& v, StlSpec& stl, const std::string& case_file) {
-  describe_stl(v, stl, case_file, "a closed triangle surface");
+  describe_stl(v, stl, case_file, "a closed triangle surface, or with thickness an open one");
+  v.number(key("thickness", "makes a plate of a surface without a volume; 0: the surface is closed"),
+           stl.thickness, at_least(0, "m"));
+  if (const auto with = v.only(stl.thickness > 0, {"a thickness"}))
+    v.choice(key("side",
+                 "of the surface where the plate lies: back is where the normals do not look, middle half on "
+                 "each side"),
+             stl.side, {"back", "front", "middle"});
 }
 
 void describe(CaseVisitor& v, FrustumSpec& frustum, const std::string&) {

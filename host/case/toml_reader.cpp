@@ -98,6 +98,26 @@ std::string advice_on_value(const std::string& line) {
   return "";
 }
 
+// What other languages have and TOML has not.
+std::string advice_on_habits(const std::string& line) {
+  struct Habit {
+    std::regex sign;
+    const char* advice;
+  };
+  static const std::array<Habit, 5> habits{
+      {{std::regex(R"(=\s*[-+]?\d{1,3}(\.\d{3})+(,\d*)\s*(#.*)?$)"),
+        "a decimal point, and nothing between thousands"},
+       {std::regex(R"(=\s*(True|False|TRUE|FALSE|[Yy]es|[Nn]o|YES|NO|[Oo]n|[Oo]ff|ON|OFF)\s*([,}\]#]|$))"),
+        "true and false are written so"},
+       {std::regex(R"(^[^#"']*//)"), "a comment begins with #"},
+       {std::regex(R"(;\s*(#.*)?$)"), "a line ends without a semicolon"},
+       {std::regex(R"(=\s*[-+\d.eE]+\s*([*/^(]|\xC2\xB7|\xC3\x97))"),
+        "no arithmetic: write the number, as 2.6e3"}}};
+  for (const Habit& habit : habits)
+    if (std::regex_search(line, habit.sign)) return std::string("; ") + habit.advice;
+  return "";
+}
+
 // A path of Windows in double quotes, where a backslash begins an escape.
 std::string advice_on_backslashes(const std::string& line) {
   static const std::regex path(R"("[^"]*([A-Za-z]:\\|\\[^btnfr"\\uU]|\\[uU](?![0-9A-Fa-f]{4}))[^"]*")");
@@ -106,10 +126,14 @@ std::string advice_on_backslashes(const std::string& line) {
 }
 
 // What to write instead of the first such number outside of strings; empty without one.
-std::string advice(const std::string& line) {
+std::string advice(const std::string& line, const std::string& fault = "") {
   if (std::string better = advice_on_characters(line); !better.empty()) return better;
   if (line.size() > longest_advised) return "";  // the search for others recurses with the length
+  static const std::regex other_line(R"(^\s*(\[|$))");
+  if (fault.find("missing array separator") != std::string::npos && std::regex_search(line, other_line))
+    return "; a bracket above it is not closed";
   if (std::string better = advice_on_backslashes(line); !better.empty()) return better;
+  if (std::string better = advice_on_habits(line); !better.empty()) return better;
   if (std::string better = advice_on_value(line); !better.empty()) return better;
   char quote = 0;
   for (std::size_t k = 0; k < line.size(); ++k) {
@@ -225,7 +249,7 @@ TomlFile::TomlFile(const std::string& given, const std::string& name) : name_(na
     const long line = number_of(e.location().line());
     throw InputError(name + ":" + std::to_string(line) + ": not TOML: " + shortened(reason(e.what()), 200) +
                      ", in " + in_quotes(line_of(text, static_cast<std::size_t>(line))) +
-                     advice(line_of(text, static_cast<std::size_t>(line))));
+                     advice(line_of(text, static_cast<std::size_t>(line)), e.what()));
   } catch (const std::exception& e) {
     throw InputError(name + ": not TOML: " + reason(e.what()));
   }

@@ -73,6 +73,10 @@ void check_encoding(const std::string& text, const std::string& name) {
   const std::string wide = "\xff\xfe", wide_too = "\xfe\xff";
   if (text.compare(0, 2, wide) == 0 || text.compare(0, 2, wide_too) == 0)
     throw InputError(name + ":1: not TOML: UTF-16: allowed: UTF-8; save it as UTF-8");
+  if (text.compare(0, 4, "\x89HDF") == 0)
+    throw InputError(name +
+                     ":1: not TOML: HDF5, as the results of a run: allowed: a case; that of a run is " +
+                     "case.toml in its folder");
   int line = 1;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = length_of_character(text, at);

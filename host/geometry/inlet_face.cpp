@@ -1,10 +1,14 @@
 #include "host/geometry/inlet_face.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 
 #include "backend/error.hpp"
 #include "host/case/toml_reader.hpp"
+#include "host/geometry/region_survey.hpp"
 #include "host/geometry/stl.hpp"
 
 namespace slagflow {
@@ -42,6 +46,37 @@ bool in_triangle(const Triangle& t, Vec3d p, Vec3d normal) {
   return (s[0] >= 0 && s[1] >= 0 && s[2] >= 0) || (s[0] <= 0 && s[1] <= 0 && s[2] <= 0);
 }
 
+// But for a spacing.
+bool in_domain(const Case& c, Vec3d low, Vec3d high) {
+  for (int k = 0; k < 3; ++k)
+    if (!(k == 1 && c.dimensions == 2) &&
+        !(low[k] > c.domain.lower[k] - c.spacing && high[k] < c.domain.upper[k] + c.spacing))
+      return false;
+  return true;
+}
+
+// The corners of a patch as they are placed; the unit has it lie in the domain and hold some particles.
+std::string unit_hint(const Case& c, const StlSpec& stl, Vec3d low, Vec3d high) {
+  constexpr double least = 2;  // [spacings] across
+  std::string reach = "; '" + std::filesystem::path(stl.file).filename().string() + "' reaches " +
+                      range_of(low, high) + ", the domain " + range_of(c.domain.lower, c.domain.upper);
+  for (const DrawingUnit& unit : drawing_units) {
+    const double factor = unit.scale / stl.scale;
+    if (std::abs(factor - 1) < 0.01 || factor * norm(high - low) < least * c.spacing) continue;
+    if (in_domain(c, stl.translate + factor * (low - stl.translate),
+                  stl.translate + factor * (high - stl.translate)))
+      return reach + ": with scale = " + show(unit.scale) + " it would lie in it; was it drawn in " +
+             unit.name + "?";
+  }
+  return reach;
+}
+
+std::string rounded(double number) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", number);
+  return text.data();
+}
+
 InletOutline patch_face(const Case& c, std::size_t inlet) {
   const InletSpec& spec = c.inlets[inlet];
   std::vector<Triangle> triangles = read_stl(spec.stl.file);
@@ -52,6 +87,7 @@ InletOutline patch_face(const Case& c, std::size_t inlet) {
       for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
     }
   InletOutline face;
+  face.unit_hint = unit_hint(c, spec.stl, low, high);
   face.frame = frame_of(c, 0.5 * (low + high), spec.normal, {});
   const Vec3d n = face.frame.normal;
   double furthest = 0;
@@ -107,9 +143,8 @@ InletOutline face_of(const Case& c, std::size_t inlet) {
   if (across <= norm(size)) return face;
   const bool patch = c.inlets[inlet].face == InletFace::stl;
   refuse_inlet(c, inlet, patch ? "scale" : "",
-               "its face is " + show(across) + " m across, the domain " + show(norm(size)) +
-                   " m from corner to corner: allowed: a face within the domain" +
-                   (patch ? "; a file drawn in mm has scale = 1e-3" : ""));
+               "its face is " + rounded(across) + " m across, the domain " + rounded(norm(size)) +
+                   " m from corner to corner: allowed: a face within the domain" + face.unit_hint);
 }
 
 void refuse_inlet(const Case& c, std::size_t inlet, const std::string& key, const std::string& what) {

@@ -25,6 +25,8 @@ struct InletOutline {
   double half_a = 0, half_b = 0;  // [m] extent to either side
   double area = 0;                // [m^2], a height [m] with two dimensions
   std::function<bool(double, double)> holds;
+  // Of a file that does not lie in the domain and would in another unit; with "; " before, or empty.
+  std::string unit_hint;
 };
 
 // Throws InputError as refuse_inlet does.

@@ -1,6 +1,7 @@
 #include "host/geometry/inlets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -69,6 +70,15 @@ Sites grid_sites(const Case& c, const InletOutline& face, const Lattice& lattice
   sites.area = sites.place.empty() ? 0 : face.area / static_cast<double>(sites.place.size());
   return sites;
 }
+
+constexpr double fastest_feed = 1e5;  // [m/s]
+
+struct Feed {
+  const char *key, *unit, *others;
+};
+constexpr std::array<Feed, 3> feeds{{{"velocity", "m/s", "m/min or mm/s"},
+                                     {"volume_flow", "m^3/s", "l/s, l/min or m^3/h"},
+                                     {"mass_flow", "kg/s", "kg/min, kg/h or t/h"}}};
 
 double fastest_flow(const InletSpec& spec) {
   double most = spec.rows.empty() ? spec.value : 0;
@@ -167,14 +177,16 @@ Sites sites_of(const Case& c, std::size_t inlet, const InletOutline& face, const
       c.inlets[inlet].face == InletFace::rectangle ? rectangle_sites(c, face) : grid_sites(c, face, lattice);
   if (sites.place.empty())
     refuse_inlet(c, inlet, "",
-                 "its face holds no particle: allowed: a larger face or a smaller resolution.spacing");
+                 "its face holds no particle: allowed: a larger face or a smaller resolution.spacing" +
+                     face.unit_hint);
   const double ratio = std::pow(c.spacing, c.dimensions) / sites.area / c.spacing;
   if (!(ratio > 0.6 && ratio < 1.6))
     refuse_inlet(
         c, inlet, "",
         "its face of " + show(face.area) + (c.dimensions == 2 ? " m" : " m^2") + " holds " +
             std::to_string(sites.place.size()) +
-            " particles, too few for its size: allowed: a larger face or a smaller resolution.spacing");
+            " particles, too few for its size: allowed: a larger face or a smaller resolution.spacing" +
+            face.unit_hint);
   return sites;
 }
 
@@ -193,7 +205,8 @@ void open_columns(const Case& c, std::size_t inlet, const InletOutline& face, co
       refuse_inlet(
           c, inlet, c.inlets[inlet].face == InletFace::stl ? "file" : "center",
           "fluid would come in outside the domain: allowed: a face in it or on its boundary, the normal "
-          "inwards");
+          "inwards" +
+              face.unit_hint);
     if (around.walls.distance(lattice.wrapped(first)) < nearest_wall * c.spacing) {
       ++columns.blocked;
       continue;
@@ -212,6 +225,11 @@ std::vector<double> column_shares(const Case& c, std::size_t inlet, const InletO
   const InletSpec& spec = c.inlets[inlet];
   const double mean = fastest_flow(spec) * speed_of_unit(c, spec, area);
   if (!(mean > 0)) refuse_inlet(c, inlet, "", "feeds nothing: allowed: a flow above 0");
+  if (mean > fastest_feed)
+    refuse_inlet(c, inlet, feed_key(spec),
+                 feed_text(c, spec, area) + ": allowed: up to " + show(fastest_feed) +
+                     " m/s, a tenth of the largest numerics.sound_speed; is it meant in " +
+                     feeds[static_cast<std::size_t>(spec.feed)].others + "?");
   const auto share = shares(c, spec, face, mean);
   std::vector<double> result;
   double sum = 0;
@@ -240,6 +258,21 @@ InletColumns inlet_columns(const Case& c, std::size_t inlet, const Lattice& latt
   columns.side = sides_of(c, face.frame, columns.origin, columns.stride, walls);
   columns.share = column_shares(c, inlet, face, sites, columns.area);
   return columns;
+}
+
+const char* feed_key(const InletSpec& spec) { return feeds[static_cast<std::size_t>(spec.feed)].key; }
+
+std::string feed_text(const Case& c, const InletSpec& spec, double area) {
+  const Feed& feed = feeds[static_cast<std::size_t>(spec.feed)];
+  const double most = fastest_flow(spec);
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), "%s %s %.4g %s", feed.key, spec.rows.empty() ? "=" : "of up to",
+                most, feed.unit);
+  std::string all = text.data();
+  if (spec.feed == InletFeed::velocity) return all;
+  std::snprintf(text.data(), text.size(), " through %.4g %s is %.4g m/s", area,
+                c.dimensions == 2 ? "m of height" : "m^2", most * speed_of_unit(c, spec, area));
+  return all + text.data();
 }
 
 FeedRate feed_rate(const Case& c, const InletSpec& spec, double area) {

@@ -31,6 +31,11 @@ struct InletColumns {
 // its edges. What a wall at rest covers in front of the face gets none. Throws InputError naming the key.
 InletColumns inlet_columns(const Case&, std::size_t inlet, const Lattice&, const WallSolids&);
 
+// "volume_flow = 1e-3 m^3/s through 0.002 m^2 is 0.5 m/s" of the key that is given, at its fastest.
+std::string feed_text(const Case&, const InletSpec&, double area);
+// The key: velocity, volume_flow or mass_flow.
+const char* feed_key(const InletSpec&);
+
 // [m/s] over time: the flow over the area.
 FeedRate feed_rate(const Case&, const InletSpec&, double area);
 

@@ -1,5 +1,6 @@
 // What inlets and outlets add to a setup, and what is told of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -157,10 +158,36 @@ void require_apart(const Case& c, const std::vector<InletColumns>& inlets) {
     }
 }
 
+namespace {
+
+constexpr double fast_feed = 100;  // [m/s] faster than what is poured or cast
+
+// Rows of particles that come by the end.
+void warn_of_feed(const Case& c, const InletSpec& spec, const InletColumns& in,
+                  std::vector<std::string>& warnings) {
+  constexpr double few_rows = 10;
+  const std::string name = "inlet '" + spec.name + "'";
+  if (spec.start >= c.output.last_time())
+    return warnings.push_back(name + " starts after the end of the run");
+  const FeedRate rate = feed_rate(c, spec, in.area);
+  if (rate.fastest() > fast_feed)
+    warnings.push_back(name + ": " + feed_text(c, spec, in.area) +
+                       ", faster than anything is poured; is the unit right?");
+  const double rows = rate.travelled(c.output.last_time()) / in.stride;
+  if (rows >= few_rows) return;
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(), text.size(), ", which brings %.3g rows of particles by the end: %s", rows,
+      rows < 0.5 ? "nothing comes; is the unit right?" : "it feeds in whole rows, half a row more or less");
+  warnings.push_back(name + ": " + feed_text(c, spec, in.area) + text.data());
+}
+
+}  // namespace
+
 void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets, const std::vector<Vec3d>& fluid,
                       std::vector<std::string>& warnings) {
   for (const OutletSpec& out : c.outlets) warn_of_outlet(c, out, inlets, fluid, warnings);
-  constexpr double least = 5, few_rows = 10;  // particles over the face, and one behind the other
+  constexpr double least = 5;  // particles over the face
   char text[200];
   for (std::size_t k = 0; k < inlets.size(); ++k) {
     const InletColumns& in = inlets[k];
@@ -174,15 +201,7 @@ void warn_of_openings(const Case& c, const std::vector<InletColumns>& inlets, co
                     in.across / c.spacing, least);
       warnings.push_back(name + text);
     }
-    const double rows = feed_rate(c, c.inlets[k], in.area).travelled(c.output.last_time()) / in.stride;
-    if (c.inlets[k].start >= c.output.last_time()) {
-      warnings.push_back(name + " starts after the end of the run");
-    } else if (rows < few_rows) {
-      std::snprintf(
-          text, sizeof text,
-          " brings %.3g rows of particles by the end: it feeds in whole rows, half a row more or less", rows);
-      warnings.push_back(name + text);
-    }
+    warn_of_feed(c, c.inlets[k], in, warnings);
   }
 }
 

@@ -19,10 +19,6 @@ std::string text_of(const Vec3d& v) {
   return text;
 }
 
-std::string range_of(const Vec3d& lower, const Vec3d& upper) {
-  return "from " + text_of(lower) + " to " + text_of(upper) + " m";
-}
-
 bool counts(const Case& c, int axis) { return !(c.dimensions == 2 && axis == 1); }
 
 bool in_domain(const Case& c, const Vec3d& p) {
@@ -138,11 +134,6 @@ std::string reason_without_site(const Case& c, const RegionSpec& region, const S
          " m and lies between lattice sites" + reach;
 }
 
-struct Unit {
-  double scale;
-  const char* name;
-};
-constexpr std::array<Unit, 4> units{{{1e-3, "mm"}, {0.0254, "inches"}, {1e-2, "cm"}, {1, "m"}}};
 constexpr double small = 0.04, enough = 0.2;  // of the domain
 
 // Its largest side over the domain's; 0 where it does not meet the domain, or is larger.
@@ -160,7 +151,7 @@ double fit(const Case& c, const Extents& e) {
 
 // The scale in which a file fits the domain, with "; " before, or empty.
 std::string fitting_scale(const Case& c, const StlSpec& stl, const Extents& e) {
-  for (const Unit& unit : units) {
+  for (const DrawingUnit& unit : drawing_units) {
     const double factor = unit.scale / stl.scale;
     const Extents scaled{stl.translate + factor * (e.lower - stl.translate),
                          stl.translate + factor * (e.upper - stl.translate)};
@@ -187,6 +178,10 @@ bool far_from_fitting(const Case& c, const Extents& e) {
 }
 
 }  // namespace
+
+std::string range_of(const Vec3d& lower, const Vec3d& upper) {
+  return "from " + text_of(lower) + " to " + text_of(upper) + " m";
+}
 
 std::string reason_without_particle(const Case& c, const RegionSpec& region, const Solid& solid,
                                     const RegionSites& sites) {

@@ -10,6 +10,17 @@
 
 namespace slagflow {
 
+// What files of CAD programs are drawn in.
+struct DrawingUnit {
+  double scale;  // [m]
+  const char* name;
+};
+constexpr std::array<DrawingUnit, 4> drawing_units{
+    {{1e-3, "mm"}, {0.0254, "inches"}, {1e-2, "cm"}, {1, "m"}}};
+
+// "from (0, 0, 0) to (1, 1, 1) m"
+std::string range_of(const Vec3d& lower, const Vec3d& upper);
+
 // Lattice sites of the domain in the shapes of a region.
 struct RegionSites {
   std::size_t all = 0, in_walls = 0, in_earlier_regions = 0, without_room = 0;

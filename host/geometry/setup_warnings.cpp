@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include "host/case/toml_reader.hpp"
+#include "host/geometry/stl.hpp"
 
 namespace slagflow {
 namespace {
@@ -44,6 +46,30 @@ void warn_of_light_fluids(const Case& c, std::vector<std::string>& warnings) {
           (fluid.density <= heaviest
                ? "g/cm^3? Then density = " + show(1000 * fluid.density)
                : "lb/ft^3? Then density = " + show(std::round(pound_per_cubic_foot * fluid.density))));
+}
+
+// Values of another unit: of melts tungsten has most tension, 2.5 N/m; and angular velocities in rpm.
+void warn_of_other_units(const BuiltCase& built, std::vector<std::string>& warnings) {
+  constexpr double most_tension = 5, fast = 50, largest_spacing = 1;  // [N/m], [m/s], [m]
+  constexpr double turn = 2 * 3.14159265358979323846;                 // [rad]
+  for (const FluidSpec& fluid : built.resolved.fluids)
+    if (fluid.surface_tension > most_tension)
+      warnings.push_back("fluid '" + fluid.name + "': a surface_tension of " + show(fluid.surface_tension) +
+                         " N/m, more than any melt has; is it meant in mN/m? Then surface_tension = " +
+                         show(fluid.surface_tension / 1000));
+  if (built.resolved.spacing > largest_spacing)
+    warnings.push_back("resolution.spacing = " + show(built.resolved.spacing) +
+                       " m: lengths are in metres; if the case is drawn in mm, all of them are a thousandth");
+  for (const SoundSpeedTerm& term : built.sound_speed_terms)
+    if (term.name == "walls" && term.speed > fast) {
+      std::array<char, 200> text{};
+      std::snprintf(
+          text.data(), text.size(),
+          "the fastest wall moves at %.3g m/s; angular velocities are in rad/s: 60 rpm are %.3g, 60 "
+          "degrees/s %.3g",
+          term.speed, turn, turn / 6);
+      warnings.emplace_back(text.data());
+    }
 }
 
 // Two layers at rest, measured: 30 to 1 stay, 100 to 1 with a shorter time step, 1000 to 1 do not.
@@ -150,17 +176,52 @@ void warn_of_short_waves(const Case& c, std::vector<std::string>& warnings) {
     }
 }
 
+// Binary STL files hold seven digits of a coordinate: map coordinates in them are steps. Files of more digits
+// have some that single precision does not hold.
+void warn_of_coarse_file(const Case& c, const StlSpec& stl, std::vector<std::string>& warnings) {
+  constexpr double digits = 0x1p-24, harmless = 0.05;  // [spacings]
+  if (norm(stl.translate) + norm(c.domain.lower) + norm(c.domain.upper) < harmless * c.spacing / digits)
+    return;
+  double farthest = 0;
+  for (const Triangle& triangle : read_stl(stl.file))
+    for (const Vec3d& corner : triangle)
+      for (int k = 0; k < 3; ++k) {
+        if (static_cast<double>(static_cast<float>(corner[k])) != corner[k]) return;
+        farthest = std::max(farthest, std::abs(corner[k]));
+      }
+  const double error = digits * farthest * stl.scale;  // [m]
+  if (error < harmless * c.spacing) return;
+  std::array<char, 300> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "' has coordinates up to %.4g, which single precision holds to %.2g m, %.2g spacings: export it "
+      "around an origin that is near, and give that as translate",
+      farthest, error, error / c.spacing);
+  warnings.push_back("'" + std::filesystem::path(stl.file).filename().string() + text.data());
+}
+
+void warn_of_coarse_files(const Case& c, std::vector<std::string>& warnings) {
+  const auto look = [&](const std::vector<ShapeSpec>& shapes) {
+    for (const ShapeSpec& shape : shapes)
+      if (const auto* const stl = std::get_if<StlSpec>(&shape.form)) warn_of_coarse_file(c, *stl, warnings);
+  };
+  for (const RegionSpec& region : c.regions) look(region.shapes), look(region.subtract);
+  for (const WallSpec& wall : c.walls) look(wall.shapes), look(wall.subtract);
+}
+
 }  // namespace
 
 void warn_of_setup(BuiltCase& built, const std::vector<double>& wall_speeds) {
   const Case& c = built.resolved;
   warn_of_unused_fluids(c, built.warnings);
   warn_of_light_fluids(c, built.warnings);
+  warn_of_other_units(built, built.warnings);
   warn_of_density_ratio(c, built.warnings);
   warn_of_currents(c, built.warnings);
   warn_of_fast_walls(wall_speeds, built.setup, built.warnings);
   warn_of_support(c, built.warnings);
   warn_of_short_waves(c, built.warnings);
+  warn_of_coarse_files(c, built.warnings);
   for (std::size_t f = 0; f < c.fluids.size(); ++f) warn_of_lost_yield_stress(built, f, built.warnings);
 }
 

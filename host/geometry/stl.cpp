@@ -13,8 +13,8 @@
 
 #include "backend/error.hpp"
 #include "host/case/toml_reader.hpp"
-#include "host/geometry/stl_bodies.hpp"
 #include "host/geometry/stl_formats.hpp"
+#include "host/geometry/stl_weld.hpp"
 
 namespace slagflow {
 namespace {
@@ -43,17 +43,11 @@ std::string read_bytes(const std::string& file) {
   return bytes;
 }
 
-std::string text_of(Vec3d v) {
-  char text[100];
-  std::snprintf(text, sizeof text, "(%.7g, %.7g, %.7g)", v.x, v.y, v.z);
-  return text;
-}
-
 void check_finite(const Triangle& triangle, std::size_t index, const std::string& place) {
   for (const Vec3d& v : triangle)
     if (!(std::abs(v.x) + std::abs(v.y) + std::abs(v.z) < 1e30))  // catches not-a-number as well
       throw InputError(place + ": triangle " + std::to_string(index) +
-                       " has a coordinate that is not a number or beyond 1e30: " + text_of(v));
+                       " has a coordinate that is not a number or beyond 1e30: " + corner_text(v));
 }
 
 std::size_t declared_count(const std::string& bytes) {
@@ -151,61 +145,9 @@ std::vector<Triangle> read_ascii(const std::string& text, const std::string& fil
   return triangles;
 }
 
-// Numbers places; those closer than the tolerance to one that has a number get that number.
-class Welder {
- public:
-  explicit Welder(double tolerance) : tolerance_(tolerance) {}
-
-  std::size_t number(Vec3d v) {
-    Cell low{}, high{};
-    for (int k = 0; k < 3; ++k) low[k] = cell(v[k] - tolerance_), high[k] = cell(v[k] + tolerance_);
-    for (long x = low[0]; x <= high[0]; ++x)
-      for (long y = low[1]; y <= high[1]; ++y)
-        for (long z = low[2]; z <= high[2]; ++z) {
-          const auto found = places_.find({x, y, z});
-          if (found == places_.end()) continue;
-          for (const auto& [place, number] : found->second)
-            if (norm(place - v) <= tolerance_) return number;
-        }
-    places_[{cell(v.x), cell(v.y), cell(v.z)}].emplace_back(v, count_);
-    return count_++;
-  }
-
- private:
-  using Cell = std::array<long, 3>;
-  long cell(double value) const { return std::lround(value / (8 * tolerance_)); }
-
-  double tolerance_;
-  std::size_t count_ = 0;
-  std::map<Cell, std::vector<std::pair<Vec3d, std::size_t>>> places_;
-};
-
-// Corners closer than this count as one, since writers round: some print five digits.
-double weld_tolerance(const std::vector<Triangle>& triangles) {
-  double largest = 0;
-  const Vec3d base = triangles.front()[0];
-  for (const Triangle& t : triangles)
-    for (const Vec3d& v : t)
-      for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(v[k] - base[k]));
-  return largest > 0 ? 1e-5 * largest : 1;
-}
-
-// Gives corners at the same place the same number.
-std::vector<Corners> weld(const std::vector<Triangle>& triangles) {
-  const Vec3d base = triangles.front()[0];
-  Welder welder(weld_tolerance(triangles));
-  std::vector<Corners> welded;
-  for (const Triangle& t : triangles) {
-    Corners corners;
-    for (std::size_t c = 0; c < 3; ++c) corners[c] = welder.number(t[c] - base);
-    welded.push_back(corners);
-  }
-  return welded;
-}
-
 // Every edge must be run through as often one way as the other. Places are those of the file.
-void check_closed(const std::vector<Triangle>& triangles, const std::vector<Corners>& corners,
-                  double tolerance, const std::string& name) {
+void check_closed(const WeldedSurface& surface, const std::string& name) {
+  const auto& [triangles, corners, tolerance] = surface;
   struct Uses {
     long forward = 0, backward = 0;
     Vec3d from, to;
@@ -226,26 +168,17 @@ void check_closed(const std::vector<Triangle>& triangles, const std::vector<Corn
     else if (uses.forward != uses.backward)
       ++against, first_against = first_against == nullptr ? &uses : first_against;
   }
-  const auto place = [](const Uses& uses) { return text_of(uses.from) + " to " + text_of(uses.to); };
+  const auto place = [](const Uses& uses) { return corner_text(uses.from) + " to " + corner_text(uses.to); };
   if (open > 0)
     throw InputError(name + ": the surface is not closed: " + std::to_string(open) +
                      " open edges, one from " + place(*first_open) +
-                     " in the file's units (corners closer than " + show(tolerance) +
-                     " count as one): allowed: 0, every edge shared by two triangles");
+                     " in the file's units (corners closer than " + length_text(tolerance) +
+                     " count as one): allowed: 0, every edge shared by two triangles; a shape's 'thickness' "
+                     "makes a plate of an open surface");
   if (against > 0)
     throw InputError(name + ": the triangles do not agree which side is outside, at " +
                      std::to_string(against) + " edges, one from " + place(*first_against) +
                      ": allowed: corners in the same sense all over the surface");
-}
-
-// One corner that is far away makes all others one.
-std::string far_corner(const std::vector<Triangle>& triangles) {
-  Vec3d farthest = triangles.front()[0];
-  for (const Triangle& t : triangles)
-    for (const Vec3d& v : t)
-      if (norm(v) > norm(farthest)) farthest = v;
-  return ": corners closer than " + show(weld_tolerance(triangles)) +
-         " count as one, 1e-5 of the extent; the farthest corner is " + text_of(farthest);
 }
 
 // Binary: as many triangles as the header announces, and less than one more: some writers round the size up.
@@ -293,19 +226,10 @@ std::vector<Triangle> read_stl(const std::string& file) {
 }
 
 std::vector<Triangle> closed_surface(const std::vector<Triangle>& triangles, const std::string& name) {
-  const std::vector<Corners> welded = weld(triangles);
-  std::vector<Triangle> surface;
-  std::vector<Corners> corners;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Corners& c = welded[t];
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-    surface.push_back(triangles[t]);
-    corners.push_back(c);
-  }
-  if (surface.empty()) throw InputError(name + ": no triangle has an area" + far_corner(triangles));
-  check_closed(surface, corners, weld_tolerance(triangles), name);
-  turn_bodies_outward(surface, corners, name);
-  return surface;
+  WeldedSurface surface = weld(triangles, name);
+  check_closed(surface, name);
+  turn_bodies_outward(surface.triangles, surface.corners, name);
+  return std::move(surface.triangles);
 }
 
 }  // namespace slagflow

@@ -170,6 +170,18 @@ void compare(Body& a, Body& b, const std::string& name) {
                      "or bodies that do not cross");
 }
 
+// Of a surface far from the origin, as at map coordinates; or empty.
+std::string lost_digits(const std::vector<Triangle>& triangles) {
+  Vec3d low = triangles.front()[0], high = low;
+  for (const Triangle& triangle : triangles)
+    for (const Vec3d& p : triangle)
+      for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], p[k]), high[k] = std::max(high[k], p[k]);
+  constexpr double far = 1e4;  // of the surface's size
+  if (std::max(norm(low), norm(high)) < far * norm(high - low)) return "";
+  return ": it is far from the origin, where single precision, as binary STL has, does not hold its shape; "
+         "export it around an origin that is near, and give that as translate";
+}
+
 }  // namespace
 
 void turn_bodies_outward(std::vector<Triangle>& triangles, const std::vector<Corners>& corners,
@@ -179,7 +191,7 @@ void turn_bodies_outward(std::vector<Triangle>& triangles, const std::vector<Cor
     bodies.emplace_back(std::move(members), triangles);
   const auto flat = [](const Body& b) { return b.volume == 0; };
   if (std::all_of(bodies.begin(), bodies.end(), flat))
-    throw InputError(name + ": the surface encloses no volume");
+    throw InputError(name + ": the surface encloses no volume" + lost_digits(triangles));
   std::sort(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.lower.x < b.lower.x; });
   for (std::size_t a = 0; a < bodies.size(); ++a)
     for (std::size_t b = a + 1; b < bodies.size() && bodies[b].lower.x <= bodies[a].upper.x; ++b)

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "backend/error.hpp"
+#include "host/geometry/stl_plate.hpp"
 
 namespace slagflow {
 namespace {
@@ -231,13 +232,16 @@ std::shared_ptr<const Form> make_surface_form(std::vector<Triangle> triangles) {
 }
 
 std::shared_ptr<const Form> make_stl_form(const StlSpec& spec) {
-  std::vector<Triangle> triangles = closed_surface(read_stl(spec.file), spec.file);
+  const bool open = spec.thickness > 0;
+  std::vector<Triangle> triangles = read_stl(spec.file);
+  if (!open) triangles = closed_surface(triangles, spec.file);
   for (Triangle& t : triangles)
     for (Vec3d& corner : t) {
       corner = spec.scale * corner + spec.translate;
       if (!(std::abs(corner.x) + std::abs(corner.y) + std::abs(corner.z) < 1e30))
         throw InputError(spec.file + ": a corner is beyond 1e30 m after scaling");
     }
+  if (open) triangles = closed_surface(plate(triangles, spec.thickness, spec.side, spec.file), spec.file);
   return make_surface_form(std::move(triangles));
 }
 

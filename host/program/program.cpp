@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -304,7 +305,10 @@ int dispatch(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    std::ostringstream out;
+    const int status = app.exit(error, out);
+    print(out.str());
+    return status == 0 ? 0 : 2;
   }
   if (run_command->parsed()) return run(arguments);
   if (resume_command->parsed()) return resume(arguments);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -15,6 +16,7 @@ namespace slagflow {
 namespace {
 
 constexpr double largest_fall = 0.2;       // of the stress, while the rate rises: more is refused
+constexpr double largest_scatter = 0.05;   // of the stress at one rate, unwarned
 constexpr double smallest_span = 3;        // largest rate over the smallest
 constexpr std::size_t most_problems = 20;  // that are told
 
@@ -78,14 +80,14 @@ class Reader {
     facts.table = given_.table;
     if (facts.name && (!is_plain_name(*facts.name) || facts.name->find('.') != std::string::npos))
       problem("name \"" + *facts.name + "\": allowed: up to 100 of letters, digits, _ -");
-    warn_of_metres();
+    warn_of_other_units();
     if (!facts.spindle) return;
     spindle_ = find_spindle(*facts.spindle);
     if (!spindle_) problem("spindle \"" + *facts.spindle + "\": allowed: " + allowed_spindles);
   }
 
-  // Options are in metres; in files such values are refused.
-  void warn_of_metres() {
+  // Options are in SI units; in files such values are refused.
+  void warn_of_other_units() {
     const auto check = [&](const std::optional<double>& value, Quantity q, const char* option) {
       if (value && *value > info(q).most)
         warn(std::string(option) + " " + text_of(*value) +
@@ -94,6 +96,9 @@ class Reader {
     check(given_.bob_radius, Quantity::bob_radius, "--bob-radius");
     check(given_.cup_radius, Quantity::cup_radius, "--cup-radius");
     check(given_.height, Quantity::height, "--height");
+    if (given_.density && *given_.density <= info(Quantity::density).least)
+      warn("--density " + text_of(*given_.density) +
+           " kg/m3 is less than any melt's: is it meant in g/cm3? Then " + text_of(*given_.density * 1e3));
   }
 
   void read_rows(const Tables& tables) {
@@ -208,6 +213,7 @@ class Reader {
 
   void check_rise() {
     const Point* highest = &points_.front();
+    std::vector<Problem> falls;
     for (const Point& point : points_) {
       const bool repeat = point.rate <= highest->rate * (1 + 1e-9);
       const double fall = 1 - point.stress / highest->stress;
@@ -220,10 +226,20 @@ class Reader {
                                 " %; no curve of a yield stress falls: wall slip, settling or a slow "
                                 "recovery of the sample?" +
                                 (several_ ? " Tables of different samples? --table takes one" : ""));
-      else if (fall > 0 && !repeat)
-        warn(at(point.line) + what);
+      else if (fall > (repeat ? largest_scatter : 0))
+        falls.push_back(
+            {point.line,
+             what + (repeat ? ": does the sample change with time? Runs up and down give two curves" : "")});
       if (point.stress >= highest->stress) highest = &point;
     }
+    tell(falls);
+  }
+
+  void tell(const std::vector<Problem>& falls) {
+    constexpr std::size_t most = 5;
+    for (std::size_t k = 0; k < std::min(falls.size(), most); ++k) warn(at(falls[k].line) + falls[k].what);
+    if (falls.size() > most)
+      warn(file_ + ": and " + std::to_string(falls.size() - most) + " more readings below others");
   }
 
   std::string file_;
@@ -245,6 +261,9 @@ Measurements parse_measurements(const std::string& text, const std::string& file
 }
 
 Measurements read_measurements(const std::string& path, const SampleFacts& options) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown))
+    throw InputError(path + ": is a folder: allowed: a file with readings");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError("cannot read " + path);
   std::stringstream text;

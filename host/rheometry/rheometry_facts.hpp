@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "host/rheometry/number_text.hpp"
 #include "host/rheometry/rheometry_data.hpp"
 #include "host/rheometry/rheometry_table.hpp"
+#include "host/text/number_text.hpp"
 
 namespace slagflow {
 

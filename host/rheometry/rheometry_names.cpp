@@ -3,7 +3,7 @@
 #include <array>
 
 #include "host/rheometry/rheometry_units.hpp"
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 namespace {
@@ -93,7 +93,9 @@ constexpr std::array<Alias, 68> aliases{{
 // Lower case, blanks for underscores, Greek letters by name.
 std::string plain_name(const std::string& text) {
   const std::string plain = lower_case(replaced(text, {{"\xCE\xB3\xCC\x87", "gammadot"},  // gamma with a dot
-                                                       {"\xE1\xBA\x8F", "gammadot"},      // y with a dot
+                                                       {"\xC6\x94\xCC\x87", "gammadot"},  // the Latin one
+                                                       {"\xC9\xA3\xCC\x87", "gammadot"},
+                                                       {"\xE1\xBA\x8F", "gammadot"},  // y with a dot
                                                        {"\xCF\x84", "tau"},
                                                        {"\xCE\xB7", "eta"},
                                                        {"\xCF\x89", "omega"},

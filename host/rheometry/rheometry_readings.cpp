@@ -47,6 +47,7 @@ class Reader {
     decide_sign();
     for (const Chosen& chosen : chosen_)
       for (const Record& row : chosen.block->rows) take(row, chosen);
+    tell_left_out();
     warn_of_viscosity();
     warn_of_temperature();
     result_.how = how();
@@ -104,8 +105,17 @@ class Reader {
       const int k = block.column_of(q);
       if (k < 0 || (with_units && !block.columns[static_cast<std::size_t>(k)].meaning.unit_known))
         return false;
+      if (with_units && is_zero(block, k)) return false;
     }
     return true;
+  }
+
+  // What a viscometer does not know, such as the shear rate at a disc, it writes as 0.
+  static bool is_zero(const Block& block, int k) {
+    return !block.rows.empty() && std::all_of(block.rows.begin(), block.rows.end(), [k](const Record& row) {
+      return stands_for_no_number(field(row, k)) || number_of(field(row, k), DecimalSign::point) == 0.0 ||
+             number_of(field(row, k), DecimalSign::comma) == 0.0;
+    });
   }
 
   void choose_columns(std::size_t k) {
@@ -227,7 +237,35 @@ class Reader {
     return true;
   }
 
+  // Rows that the instrument marks as none, with the mark.
+  bool leave_out(const Record& row, const Chosen& chosen) {
+    for (const int k : {chosen.first, chosen.second})
+      if (stands_for_no_number(field(row, k))) {
+        left_out_.push_back({row.line, field(row, k)});
+        return true;
+      }
+    return false;
+  }
+
+  void tell_left_out() {
+    constexpr std::size_t most_told = 10;
+    const std::size_t count = left_out_.size();
+    if (count == 0) return;
+    std::string lines;
+    for (std::size_t k = 0; k < std::min(count, most_told); ++k)
+      lines +=
+          (k > 0 ? ", " : " ") + std::to_string(left_out_[k].line) + " (" + quoted(left_out_[k].text) + ")";
+    if (count > most_told) lines += " and " + std::to_string(count - most_told) + " more";
+    const std::string what = std::to_string(count) + (count > 1 ? " rows have" : " row has") +
+                             " no reading: line" + (count > 1 ? "s" : "") + lines;
+    if (count > result_.readings.size())
+      problem(left_out_[0].line, what + ": allowed: up to half of all rows");
+    else
+      warn(left_out_[0].line, what + (count > 1 ? "; they are" : "; it is") + " left out");
+  }
+
   void take(const Record& row, const Chosen& chosen) {
+    if (leave_out(row, chosen)) return;
     Reading reading{0, 0, row.line, chosen.table, viscosity_of(row, chosen)};
     const bool good = take_field(row, chosen, chosen.first, reading.first);
     if (!take_field(row, chosen, chosen.second, reading.second) || !good) return;
@@ -293,6 +331,7 @@ class Reader {
   std::vector<Chosen> chosen_;
   DecimalSign sign_ = DecimalSign::point;
   Place mismatch_;
+  std::vector<Place> left_out_;
   int mismatches_ = 0;
 };
 

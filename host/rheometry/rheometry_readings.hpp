@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "host/rheometry/number_text.hpp"
 #include "host/rheometry/rheometry_table.hpp"
+#include "host/text/number_text.hpp"
 
 namespace slagflow {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 namespace {
@@ -39,6 +39,8 @@ std::optional<Spindle> find_spindle(const std::string& name) {
   std::string plain = replaced(
       lower_case(trimmed(name)),
       {{"brookfield", ""}, {"spindle", ""}, {"no.", ""}, {"#", ""}, {" ", ""}, {"-", ""}, {"_", ""}});
+  if (const std::size_t code = plain.find('('); code != std::string::npos && code > 0)
+    plain.erase(code);  // LV-02 (62)
   const std::size_t digits = plain.find_first_of("0123456789");
   if (digits == std::string::npos || plain.size() - digits > 2) return {};
   if (plain.find_first_not_of("0123456789", digits) != std::string::npos) return {};

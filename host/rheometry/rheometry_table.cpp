@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "host/rheometry/number_text.hpp"
+#include "host/text/number_text.hpp"
 
 namespace slagflow {
 namespace {
@@ -91,7 +91,7 @@ class Scanner {
   Tables scan() {
     for (at_ = 0; at_ < records_.size(); ++at_) {
       const Record& record = records_[at_];
-      if (record.filled() == 0 || is_rule(record)) {
+      if (record.filled() == 0 || (is_rule(record) && !among_rows(record))) {
         gap_ = true;
       } else if (std::optional<Block> block = is_comment(record) ? std::nullopt : header_here()) {
         tables_.blocks.push_back(std::move(*block));
@@ -106,6 +106,13 @@ class Scanner {
   }
 
  private:
+  // Signs in place of numbers between rows of them are the instrument's.
+  bool among_rows(const Record& record) const {
+    if (record.filled() < 2 || tables_.blocks.empty() || tables_.blocks.back().rows.empty()) return false;
+    const std::size_t next = next_filled(at_ + 1);
+    return next < records_.size() && all_numbers(records_[next], tables_.blocks.back());
+  }
+
   void take_other(const Record& record) {
     tables_.others.push_back(record);
     if (!tables_.blocks.empty() && !is_comment(record) && ended_ == 0) ended_ = record.line;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/rheometry/rheometry_units.hpp"
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 

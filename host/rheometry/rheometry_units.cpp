@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 namespace {
@@ -24,7 +24,8 @@ Units shear_stress_units() {
           {"MPa", 1e6, "N/mm2"},
           {"hPa", 1e2},
           {"uPa", 1e-6},
-          {"dyn/cm2", 0.1, "dyne/cm2 dynes/cm2 D/cm2 dyncm-2 dynecm-2 dyn/sqcm"}};
+          {"dyn/cm2", 0.1, "dyne/cm2 dynes/cm2 D/cm2 dyncm-2 dynecm-2 dyn/sqcm"},
+          {"lbf/100ft2", 0.47880259, "lb/100ft2 lbs/100ft2"}};
 }
 
 Units viscosity_units() {

@@ -12,6 +12,7 @@
 #include "fluid/constants.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/geometry.hpp"
+#include "host/geometry/inlet_face.hpp"
 #include "host/geometry/inlets.hpp"
 #include "host/measures/losses.hpp"
 #include "host/run/advice.hpp"
@@ -251,12 +252,34 @@ double memory_of(const SimulationSetup& setup, double last_time) {
          bytes_per_wall_particle * static_cast<double>(setup.walls.position.size());
 }
 
+// Where most of it is for what an inlet brings.
+void refuse_feed(const BuiltCase& built, double needed, double available) {
+  const SimulationSetup& setup = built.setup;
+  const Case& c = built.resolved;
+  const double last = c.output.last_time();
+  std::size_t most = 0;
+  const auto volume = [&](std::size_t k) {
+    return columns_area(setup, setup.inlets[k]) * setup.inlets[k].rate.travelled(last);
+  };
+  for (std::size_t k = 0; k < setup.inlets.size(); ++k)
+    if (volume(k) > volume(most)) most = k;
+  const std::int64_t fed = fed_particles(setup, last) - fed_particles(setup, setup.start_time);
+  if (bytes_per_fluid_particle * static_cast<double>(fed) < 0.5 * needed) return;
+  refuse_inlet(c, most, feed_key(c.inlets[most]),
+               feed_text(c, c.inlets[most], columns_area(setup, setup.inlets[most])) + ", inlets bring " +
+                   std::to_string(fed) + " particles by " + show(last) + " s, which need about " +
+                   gigabytes(needed) + " of memory, " + gigabytes(available) +
+                   " are available: allowed: less flow, an earlier output.end_time or a larger "
+                   "resolution.spacing; is the unit right?");
+}
+
 }  // namespace
 
 void require_memory(const BuiltCase& built, double available) {
   const SimulationSetup& setup = built.setup;
   const double needed = memory_of(setup, built.resolved.output.last_time());
   if (needed <= available) return;
+  refuse_feed(built, needed, available);
   const char* key = "resolution.spacing";
   throw InputError(built.resolved.place_of(key) + ": key '" + key + "': value " + show(setup.spacing) +
                    " gives " + std::to_string(setup.particles.position.size()) + " fluid and " +

@@ -1,6 +1,7 @@
 // How much is told of what is wrong, and of what.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <ctime>
@@ -8,6 +9,7 @@
 
 #include "backend/error.hpp"
 #include "host/case/case.hpp"
+#include "host/temp_folder.hpp"
 #include "host/tiny_case.hpp"
 
 namespace slagflow {
@@ -41,6 +43,39 @@ TEST(CaseMessages, OfManyUnknownKeysTheFirstAreToldAndTheRestCounted) {
   EXPECT_EQ(lines_of(message), 21);
   EXPECT_THAT(message, AllOf(HasSubstr("'numerics.key19': unknown"), Not(HasSubstr("'numerics.key20'")),
                              HasSubstr("case.toml: 5980 more keys that are unknown")));
+}
+
+// Without waiting for who writes to it.
+TEST(CaseMessages, APipeIsNoCase) {
+  const testing_tools::TempFolder folder;
+  ASSERT_EQ(mkfifo((folder / "case.toml").c_str(), 0600), 0);
+  EXPECT_THAT([&] { load_case(folder / "case.toml"); },
+              testing::ThrowsMessage<InputError>(
+                  HasSubstr("case.toml: cannot be read: allowed: a case file (TOML)")));
+}
+
+// It is the rheology, not a suspension.
+TEST(CaseMessages, OfSeveralReasonsTheOneThatHoldsIsTold) {
+  const std::string message =
+      error_of(tiny_case(), {"fluid.oil.rheology=casson", "fluid.oil.plastic_viscosity=1"});
+  EXPECT_THAT(message, AllOf(HasSubstr("'fluid.oil.plastic_viscosity': unknown"),
+                             HasSubstr("plastic_viscosity goes with rheology = \"bingham\""),
+                             Not(HasSubstr("suspension has"))));
+}
+
+TEST(CaseMessages, HabitsOfOtherLanguagesAreToldWhatToWrite) {
+  const std::pair<const char*, const char*> lines[]{
+      {"a = 2.700,0", "; a decimal point, and nothing between thousands"},
+      {"a = 2700;", "; a line ends without a semicolon"},
+      {"a = 2700 // slag", "; a comment begins with #"},
+      {"a = 2.7*10^3", "; no arithmetic: write the number, as 2.6e3"},
+      {"a = True", "; true and false are written so"},
+      {"a = {b=1, outside=yes}", "; true and false are written so"},
+      {"a = [{b=1}\n[c]", "; a bracket above it is not closed"}};
+  for (const auto& [line, advice] : lines)
+    EXPECT_THAT(error_of(std::string(line) + "\n"), AllOf(HasSubstr("not TOML"), testing::EndsWith(advice)))
+        << line;
+  EXPECT_THAT(error_of("[a]\n[a]\n"), Not(HasSubstr("bracket")));
 }
 
 TEST(CaseMessages, OfManyMistakesTheFirstHundredAreTold) {
@@ -169,6 +204,15 @@ TEST(CaseMessages, MeasuresAreLimited) {
   EXPECT_EQ(with_volumes(254), "accepted");
   EXPECT_THAT(with_volumes(255),
               HasSubstr("key 'measure': 256 entries of type \"volume\": allowed: up to 255"));
+}
+
+TEST(CaseMessages, NamesAFileOfResults) {
+  EXPECT_THAT(error_of(std::string("\x89HDF\r\n\x1a\n\0\0", 10)), HasSubstr("HDF5, as the results of a run"));
+}
+
+TEST(CaseMessages, SayWhereTheLeastIntervalComesFrom) {
+  EXPECT_THAT(error_of("[output]\nend_time = 1e6\ninterval = 0.01\n"),
+              HasSubstr("allowed: a number >= 1.0 [s, end_time / 1e+06]"));
 }
 
 }  // namespace

@@ -80,6 +80,22 @@ TEST(CaseOpenings, AFlowIsAskedForOnceInOneWay) {
   EXPECT_THAT(message_of(text(disc + "velocity=[]")), HasSubstr("value [] is empty"));
 }
 
+TEST(CaseOpenings, AFlowOfTheCommandLineTakesThePlaceOfTheFiles) {
+  const std::string file = text(disc + "velocity=[[0,0],[1,2]]");
+  const Case c = parse_case(file, "case.toml", {"inlet.0.mass_flow=3"});
+  EXPECT_EQ(c.inlets[0].feed, InletFeed::mass_flow);
+  EXPECT_DOUBLE_EQ(c.inlets[0].value, 3);
+  EXPECT_TRUE(c.inlets[0].rows.empty());
+  EXPECT_THAT(to_toml(c), testing::Not(HasSubstr("velocity = [[")));
+  EXPECT_EQ(parse_case(file, "case.toml", {"inlet.0.velocity=4"}).inlets[0].feed, InletFeed::velocity);
+  try {
+    parse_case(file, "case.toml", {"inlet.0.mass_flow=3", "inlet.0.volume_flow=1"});
+    FAIL() << "two flows of the command line";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("has more than one of velocity"));
+  }
+}
+
 TEST(CaseOpenings, KeysGoWithTheirFace) {
   EXPECT_THAT(message_of(text(disc + "velocity=1\nwidth=1")),
               HasSubstr("width goes with face = \"rectangle\", dimensions = 3"));

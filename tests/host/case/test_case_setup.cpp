@@ -69,6 +69,14 @@ TEST(SetupBuilder, WarnsOfAFluidThatNoRegionUses) {
   EXPECT_THAT(build_setup(c).warnings, testing::Contains(testing::HasSubstr("fluid 'oil' is in no region")));
 }
 
+TEST(SetupBuilder, WarnsOfACaseDrawnInMillimetres) {
+  Case c = unit_case();  // a spacing of 1 m
+  const auto told = testing::Contains(testing::HasSubstr("if the case is drawn in mm"));
+  EXPECT_THAT(build_setup(c).warnings, testing::Not(told));
+  c.spacing = 2;
+  EXPECT_THAT(build_setup(c).warnings, told);
+}
+
 TEST(SetupBuilder, WarnsOfADensityInGramsPerCubicCentimetre) {
   const auto warnings = [](const std::string& density) {
     return build_setup(parse_case(testing_tools::tiny_case(), "t", {"fluid.oil.density=" + density}))

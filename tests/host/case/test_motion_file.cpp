@@ -45,6 +45,40 @@ TEST(MotionFile, OtherEditorsWriteItOtherwise) {
   EXPECT_TRUE(read("t / s\tz / cm\n0\t0\n2\t3\n").motion.angle.empty());
 }
 
+// As Excel saves it: "Unicode text", and the CSV of a German Windows with ° of its code page.
+TEST(MotionFile, EncodingsAreThoseOfRheometers) {
+  std::string utf16 = "\xFF\xFE";
+  for (const char c : std::string("Zeit [s]\tWinkel [deg]\r\n0\t0\r\n1,5\t90\r\n")) utf16 += {c, '\0'};
+  const std::string windows =
+      "Zeit;Winkel;Bemerkung\r\ns;\xB0;\r\n0;0;\r\n\"1,5\";90,0;F\xFC"
+      "llung\r\n";
+  for (const std::string& text : {utf16, windows}) {
+    const Read r = read(text);
+    EXPECT_EQ(r.fault, "");
+    EXPECT_EQ(r.motion.time, (std::vector<double>{0, 1.5}));
+    ASSERT_EQ(r.motion.angle.size(), 2U);
+    EXPECT_NEAR(r.motion.angle[1], std::acos(-1.0) / 2, 1e-12);
+  }
+  EXPECT_THAT(read(std::string("PK\x03\x04", 4)).fault, HasSubstr("the file is a spreadsheet (.xlsx, .ods)"));
+}
+
+TEST(MotionFile, LinesAboveTheNamesAreLeftOut) {
+  const Read r = read("sep=;\nTilt of ladle 3\ntime;z\ns;mm\n0;0\n2;5,5\n");
+  EXPECT_EQ(r.fault, "");
+  EXPECT_EQ(r.motion.time, (std::vector<double>{0, 2}));
+  EXPECT_NEAR(r.motion.displacement[1].z, 5.5e-3, 1e-15);
+}
+
+TEST(MotionFile, SignsOfNumbersAreNotGuessed) {
+  EXPECT_EQ(read("time_s,x_m\n0,0\n\"1,25\",\"0,5\"\n").motion.time, (std::vector<double>{0, 1.25}));
+  EXPECT_EQ(read("time_s;x_m\n0;0\n1,250;2\n").motion.time, (std::vector<double>{0, 1.25}));
+  EXPECT_EQ(read("time_s;x_m\n0.5;0\n1,250;2\n").fault,
+            "line 3: '1,250' has a comma, '0.5' in line 2 a decimal point: allowed: one of them, and none "
+            "between thousands");
+  EXPECT_THAT(read("time_s;x_m\n0,5;0\n1.250;2\n").fault, HasSubstr("line 3: '1.250' has a point"));
+  EXPECT_EQ(read("time_s;x_m\n0;\"0\n").fault, "line 2: a quote that is not closed: allowed: \" in pairs");
+}
+
 TEST(MotionFile, FaultsAreToldWithTheirLine) {
   EXPECT_EQ(read("time_s,x_m\n0,0\n1,abc\n").fault, "line 3: 'abc' is not a number");
   EXPECT_EQ(read("time_s,x_m\n0,0\n1\n").fault, "line 3: '' is not a number");

@@ -15,6 +15,7 @@
 namespace slagflow {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
@@ -203,6 +204,40 @@ TEST(InletFaces, ImpossibleOnesAreRefused) {
               HasSubstr("walls stand before all of its face"));
 }
 
+TEST(InletFaces, AFlowThatCannotBeIsNamedWithTheSpeedThatFollows) {
+  InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
+  in.radius = 3, in.feed = InletFeed::volume_flow, in.value = 1e8;
+  EXPECT_THAT(refusal(with(in)),
+              HasSubstr("key 'inlet.0.volume_flow': volume_flow = 1e+08 m^3/s through 28.27 m^2 is 3.537e+06 "
+                        "m/s: allowed: up to 1e+05 m/s, a tenth of the largest numerics.sound_speed; is it "
+                        "meant in l/s, l/min or m^3/h?"));
+  in.value = 1e4;
+  EXPECT_THAT(fill(with(in)).warnings,
+              Contains(HasSubstr("m^2 is 353.7 m/s, faster than anything is poured")));
+  in.rows = {{0, 0}, {1, 1e-12}};
+  EXPECT_THAT(
+      fill(with(in)).warnings,
+      Contains(AllOf(HasSubstr("inlet 'spout': volume_flow of up to 1e-12 m^3/s through 28.27 m^2 is "),
+                     HasSubstr("rows of particles by the end: nothing comes; is the unit right?"))));
+}
+
+// 8 by 6 in a domain of 40.
+TEST(InletFaces, APatchInAnotherUnitIsToldItsScale) {
+  InletSpec in = inlet(InletFace::stl, {}, {0, 0, -1});
+  const auto patch = [&](double scale) {
+    const Vec3d a{10 * scale, 10 * scale, 30 * scale}, b{18 * scale, 10 * scale, 30 * scale};
+    const Vec3d c{18 * scale, 16 * scale, 30 * scale}, d{10 * scale, 16 * scale, 30 * scale};
+    in.stl.file = write_temp_file("patch.stl", binary_stl({Triangle{a, b, c}, Triangle{a, c, d}}));
+    return refusal(with(in));
+  };
+  EXPECT_EQ(patch(1), "none");
+  EXPECT_THAT(patch(1000), HasSubstr("with scale = 0.001 it would lie in it; was it drawn in mm?"));
+  EXPECT_THAT(patch(1 / 0.0254),
+              HasSubstr("with scale = 0.0254 it would lie in it; was it drawn in inches?"));
+  in.stl.scale = 1e-3;
+  EXPECT_THAT(patch(100), HasSubstr("with scale = 0.01 it would lie in it; was it drawn in cm?"));
+}
+
 // At the same time; one after the other is right.
 TEST(InletFaces, TwoAtOnePlaceAreRefused) {
   InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
@@ -259,7 +294,8 @@ TEST(InletFaces, FewRowsAreWarnedOf) {
   in.radius = 4, in.stop = 1.5;  // 2 m/s, 3 m
   Case c = with(in);
   c.output.end_time = 9;
-  EXPECT_THAT(fill(c).warnings, Contains(HasSubstr("inlet 'spout' brings 2.9 rows")));
+  EXPECT_THAT(fill(c).warnings,
+              Contains(HasSubstr("inlet 'spout': velocity = 2 m/s, which brings 2.9 rows")));
   c.inlets[0].stop = 6;
   EXPECT_THAT(fill(c).warnings, Not(Contains(HasSubstr("rows of particles"))));
 }

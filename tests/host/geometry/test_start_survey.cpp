@@ -154,6 +154,37 @@ TEST(SetupWarnings, AYieldStressThatIsLostIsTold) {
     EXPECT_THAT(yields(fine), Not(Contains(HasSubstr("hold nothing")))) << fine;
 }
 
+TEST(SetupWarnings, ValuesOfAnotherUnitAreToldIt) {
+  const auto warnings = [](double tension, double turn) {
+    Case c = unit_case();
+    c.fluids[0].surface_tension = tension;
+    c.walls = {wall("roll", {box({0, 0, 0}, {10, 10, 3})})};
+    c.walls[0].surface.angular_velocity = {0, turn, 0};
+    return warnings_of(c);
+  };
+  EXPECT_THAT(warnings(0.45, 1), Not(Contains(HasSubstr("meant in mN/m"))));
+  EXPECT_THAT(warnings(450, 1), Contains(HasSubstr("is it meant in mN/m? Then surface_tension = 0.45")));
+  EXPECT_THAT(warnings(0, 1), Not(Contains(HasSubstr("rad/s"))));
+  EXPECT_THAT(warnings(0, 300), Contains(HasSubstr("angular velocities are in rad/s: 60 rpm are 6.28")));
+}
+
+TEST(SetupWarnings, AFileAtMapCoordinatesIsToldItsSteps) {
+  const auto warnings_at = [](Vec3d origin) {
+    Case c = unit_case();
+    c.origin = origin;
+    c.domain.lower += origin, c.domain.upper += origin;
+    c.regions[0].shapes = {box(origin + Vec3d{4, 4, 7}, origin + Vec3d{6, 6, 9})};
+    const std::vector<Triangle> floor = box_triangles(origin, origin + Vec3d{10, 10, 3});
+    c.walls = {wall("floor", {stl_shape(write_temp_file("floor.stl", binary_stl(floor)))})};
+    return warnings_of(c);
+  };
+  EXPECT_THAT(
+      warnings_at({500000, 4500000, 1200}),
+      Contains(HasSubstr("' has coordinates up to 4.5e+06, which single precision holds to 0.27 m, 0.27 "
+                         "spacings: export it around an origin that is near")));
+  EXPECT_THAT(warnings_at({5000, 45000, 1200}), Not(Contains(HasSubstr("single precision"))));
+}
+
 TEST(SetupWarnings, ASupportRatioThatWasNotTestedIsTold) {
   const auto ratio = [](double value) {
     Case c = unit_case();

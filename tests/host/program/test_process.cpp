@@ -53,6 +53,7 @@ TEST_F(Process, AFullStdoutIsAFailureAndAReaderWhoLeavesIsNone) {
   const std::string help = std::string(SLAGFLOW_PROGRAM) + " help --page";
   EXPECT_EQ(shell(help + " >/dev/full"), 1);
   EXPECT_THAT(said(), HasSubstr("error: cannot write to stdout: No space left on device"));
+  EXPECT_EQ(shell(std::string(SLAGFLOW_PROGRAM) + " --version >/dev/full"), 1);
   EXPECT_EQ(shell("{ " + help + "; echo status $? >&2; } | head -n 1 >/dev/null"), 0);
   EXPECT_EQ(said(), "status 0\n");
 }

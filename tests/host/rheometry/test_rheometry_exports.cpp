@@ -52,6 +52,49 @@ TEST(RheometryExports, ARowOfUnits) {
               HasSubstr("x.csv:2: column 'Shear Stress' has no unit that is known, but 'psi'"));
 }
 
+// Left out and told; what a person got wrong is refused.
+TEST(RheometryExports, RowsThatTheInstrumentMarksAsNone) {
+  const Measurements m = read(
+      "Point;Shear rate [1/s];Shear stress [Pa]\n1;1;3\n2;1,5;over range\n3;2;4\n4;---;---\n"
+      "5;5;7\n6;10;12\n7;20;#NV\n");
+  expect_readings(m);
+  EXPECT_THAT(m.warnings,
+              testing::Contains(HasSubstr("x.csv:3: 3 rows have no reading: lines 3 (\"over range\"), 5 "
+                                          "(\"---\"), 8 (\"#NV\"); they are left out")));
+  EXPECT_THAT(
+      read(std::string(names) + "1,3\n2,4\n---,---\n5,7\n10,12\n").warnings,
+      testing::Contains(HasSubstr("x.csv:4: 1 row has no reading: line 4 (\"---\"); it is left out")));
+  EXPECT_THAT(refusal(std::string(names) + "1,3\n2,nan\n5,nan\n"),
+              HasSubstr("x.csv:3: 2 rows have no reading: lines 3 (\"nan\"), 4 (\"nan\"): allowed: up to "
+                        "half of all rows"));
+  EXPECT_THAT(refusal(std::string(names) + "1,3\n2,4*\n5,7\n10,12\n"),
+              HasSubstr("x.csv:3: column 'shear_stress_Pa': value \"4*\" is not a number"));
+}
+
+// Brookfield's Rheocalc: of a disc it knows no shear rate, and writes 0.
+TEST(RheometryExports, ColumnsOfZerosAreNotMeasured) {
+  const Measurements m = read(
+      "Spindle,LV-02 (62)\n\nViscosity (cP),Speed (RPM),% Torque (%),"
+      "Shear Stress (dyne/cm\xC2\xB2),Shear Rate "
+      "(1/s)\n1250,6,25,0.00,0.00\n1000,12,40,0.00,0.00\n900,20,60,0.00,0.00\n"
+      "800,30,80,0.00,0.00\nEEEE,60,EEEE,EEEE,0.00\n");
+  EXPECT_EQ(m.facts.spindle, "LV-2");
+  EXPECT_THAT(m.how,
+              HasSubstr("4 rows in lines 4 to 7; rotation in rpm from 'Speed (RPM)', torque in percent"));
+  EXPECT_THAT(m.warnings, testing::Contains(HasSubstr("1 row has no reading: line 8 (\"EEEE\")")));
+  EXPECT_THAT(refusal(std::string(names) + "0,3\n0,4\n0,7\n"),
+              HasSubstr("x.csv:2: column 'shear_rate_1/s': value 0"));
+}
+
+TEST(RheometryExports, RunsUpAndDownThatDifferAreTold) {
+  const auto warnings = [](const std::string& back) {
+    return read(std::string(names) + "1,30\n2,40\n5,70\n10,120\n5," + back + "\n").warnings;
+  };
+  EXPECT_THAT(warnings("68"), IsEmpty());
+  EXPECT_THAT(warnings("63"), ElementsAre(HasSubstr("x.csv:6: the stress 63 Pa is below the 70 Pa of line 4 "
+                                                    "at the same rate: does the sample change with time?")));
+}
+
 TEST(RheometryExports, EmptyColumns) {
   expect_readings(read("shear_rate_1/s,shear_stress_Pa,,\n1,3,,\n2,4,,\n5,7\n10,12,,\n"));
   EXPECT_THAT(read(std::string(names) + "1,3,,\n2,4,,\n5,7,,\n10,12,,\n").warnings, IsEmpty());
@@ -181,6 +224,14 @@ TEST(RheometryExports, ATemperatureThatVariesIsTold) {
   };
   EXPECT_THAT(warnings("1402"), testing::Not(testing::Contains(HasSubstr("temperature"))));
   EXPECT_THAT(warnings("1350"), testing::Contains(HasSubstr("the temperature goes from 1350 to 1401")));
+}
+
+TEST(RheometryExports, ADensityInGramsIsTold) {
+  SampleFacts options;
+  options.density = 2.6;
+  EXPECT_THAT(
+      read(std::string(names) + "1,3\n2,4\n5,7\n10,12\n", options).warnings,
+      ElementsAre(HasSubstr("--density 2.6 kg/m3 is less than any melt's: is it meant in g/cm3? Then 2600")));
 }
 
 TEST(RheometryExports, RadiiOfMillimetresAsMetresAreTold) {

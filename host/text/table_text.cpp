@@ -1,4 +1,4 @@
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 #include <algorithm>
 #include <array>

@@ -16,6 +16,10 @@ NumberForm form_of(const std::string& text);
 // Nothing where it is no number, or not one with that sign.
 std::optional<double> number_of(const std::string& text, DecimalSign sign);
 
+// Whether it is what instruments and spreadsheets write in place of a number that there is not: ---, NaN,
+// n/a, over range, EEEE, #N/A.
+bool stands_for_no_number(const std::string& text);
+
 // The beginning of `5.5 Pa` that is a number, and what follows it.
 struct NumberAndRest {
   std::string number, rest;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "backend/error.hpp"
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 namespace {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 namespace {

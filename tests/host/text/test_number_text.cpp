@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host/rheometry/number_text.hpp"
+#include "host/text/number_text.hpp"
 
 namespace slagflow {
 namespace {
@@ -49,6 +49,17 @@ TEST(NumberText, SplitsANumberFromItsUnit) {
   EXPECT_EQ(split_number("5.5 Pa").rest, "Pa");
   EXPECT_EQ(split_number("45%").rest, "%");
   EXPECT_EQ(split_number("Pa").number, "");
+}
+
+TEST(NumberText, InstrumentsSayThatThereIsNone) {
+  for (const char* const text :
+       {"---", "-", "NaN", "n/a", "Over range", "OVER-RANGE", "EEEE", "#NV", "#DIV/0!", "****", "-1.#IND",
+        "\xC3\x9C"
+        "berlauf",
+        "\xE2\x80\x93"})
+    EXPECT_TRUE(stands_for_no_number(text)) << text;
+  for (const char* const text : {"", "0", "-1", "1.2*", "<0.1", "1e5", "E", "abc"})
+    EXPECT_FALSE(stands_for_no_number(text)) << text;
 }
 
 }  // namespace

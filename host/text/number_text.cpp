@@ -1,10 +1,11 @@
-#include "host/rheometry/number_text.hpp"
+#include "host/text/number_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
-#include "host/rheometry/table_text.hpp"
+#include "host/text/table_text.hpp"
 
 namespace slagflow {
 namespace {
@@ -77,6 +78,18 @@ bool is_fraction_sign(const std::string& body, char sign, char other) {
          body.find(other, at) == std::string::npos;
 }
 
+// What instruments and spreadsheets write where there is no number, in lower case.
+constexpr std::array<const char*, 62> words_for_none{
+    "nan",       "-nan",          "nan(ind)",  "-nan(ind)",   "1.#qnan",    "1.#ind",        "-1.#ind",
+    "1.#inf",    "-1.#inf",       "1,#qnan",   "-1,#ind",     "1,#inf",     "n/a",           "na",
+    "n.a.",      "n. a.",         "#n/a",      "#na",         "#nan",       "#nv",           "#div/0!",
+    "#value!",   "#wert!",        "#num!",     "#zahl!",      "#ref!",      "#bezug!",       "null",
+    "none",      "void",          "inf",       "-inf",        "+inf",       "infinity",      "-infinity",
+    "over",      "over range",    "overrange", "overflow",    "overload",   "out of range",  "ol",
+    "o.l.",      "ovl",           "under",     "under range", "underrange", "underflow",     "underload",
+    "err",       "error",         "fail",      "failed",      "invalid",    "\u00fcberlauf", "\u00fcberlast",
+    "unterlauf", "ung\u00fcltig", "fehler",    "erreur",      "hors plage", "hors gamme"};
+
 }  // namespace
 
 NumberForm form_of(const std::string& text) {
@@ -111,6 +124,19 @@ std::optional<double> number_of(const std::string& text, DecimalSign sign) {
   const double value = std::strtod((parts.sign + body + parts.exponent).c_str(), nullptr);
   if (!std::isfinite(value)) return {};
   return value;
+}
+
+bool stands_for_no_number(const std::string& text) {
+  const std::string plain =
+      lower_case(replaced(trimmed(text), {{"\u2013", "-"}, {"\u2014", "-"}, {"\u00dc", "\u00fc"}}));
+  if (plain.empty()) return false;
+  const bool one_sign = plain.find_first_not_of(plain[0]) == std::string::npos;
+  if (one_sign &&
+      (std::string("-*#?.").find(plain[0]) != std::string::npos || (plain[0] == 'e' && plain.size() > 1)))
+    return true;
+  const std::string spaced = replaced(plain, {{"-", " "}, {"_", " "}});
+  return std::any_of(words_for_none.begin(), words_for_none.end(),
+                     [&](const char* word) { return plain == word || spaced == word; });
 }
 
 NumberAndRest split_number(const std::string& text) {
