@@ -171,6 +171,17 @@ struct LineSetup {
   Vec3d at(int k) const { return start + (end - start) * (k / (points - 1.0)); }
 };
 
+// A rectangle whose two sides particles go through, counted one by one.
+struct RectangleSetup {
+  Vec3d center, normal, u, v;     // [m]; unit vectors square to each other
+  double half_u = 0, half_v = 0;  // [m] along u and v
+};
+
+// Columns of points in which the free surface is looked for.
+struct SurfaceSetup {
+  std::vector<LineSetup> columns;
+};
+
 struct SimulationSetup {
   int dimensions = 3;          // 2: a single layer in the x-z plane, y is ignored
   double spacing = 0;          // [m]
@@ -195,8 +206,13 @@ struct SimulationSetup {
   std::vector<BoxSetup> boxes;
   std::vector<LineSetup> lines;
   std::vector<LineSetup> levels;  // on which the surface is looked for
-  bool measure_walls = false;     // the forces on walls; they are known without it where walls move
-  bool time_parts = false;        // times each part of a step: a CUDA build launches it kernel by kernel
+  std::vector<RectangleSetup> rectangles;
+  std::vector<SurfaceSetup> surfaces;
+  std::vector<std::size_t> contacts;    // bodies whose contact with fluid is measured
+  std::vector<double> site_area;        // [m^2] of each wall particle's share of such a surface; or empty
+  std::vector<std::size_t> residences;  // outlets at which the ages of particles are measured
+  bool measure_walls = false;           // the forces on walls; they are known without it where walls move
+  bool time_parts = false;  // times each part of a step: a CUDA build launches it kernel by kernel
 };
 
 }  // namespace slagflow

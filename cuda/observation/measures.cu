@@ -1,7 +1,7 @@
 #include <limits>
 
 #include "fluid/diagnostic_sums.hpp"
-#include "fluid/smoothing/smoothing.hpp"
+#include "observation/around_point.hpp"
 #include "observation/measures.hpp"
 
 namespace slagflow {
@@ -95,27 +95,18 @@ struct Sample {
 };
 
 struct InterpolateAtPoint {
-  CellGrid grid;
-  Span<const Index> cell_start;
-  Span<const Quad> place, motion, state;
+  AroundPoint around;
+  Span<const Quad> motion, state;
   Span<const Real> shear_rate;
-  PeriodicBox box;
-  Smoothing W;
   Real inverse_support;
-  Real reach;  // of the support, from where the particles were sorted
   Span<const Quad> point;
   Span<Sample> result;
 
   // The distance from point to particle in units of the support keeps the moments of order one.
   template <class Visit>
   HOST_DEVICE void for_particles(Vec3 at, Visit visit) const {
-    grid.for_cells_within(at, reach, [&](Index first, Index last) {
-      for (Index j = cell_start[first]; j < cell_start[last + 1]; ++j) {
-        const Vec3 d = box.separation(xyz(place[j]), at);
-        const Real r2 = dot(d, d);
-        if (r2 < square(W.support))
-          visit(j, static_cast<double>(state[j].z * W.value(r2)), to_double(inverse_support * d));
-      }
+    around.for_particles(at, [&](Index j, Vec3 d, Real r2) {
+      visit(j, static_cast<double>(state[j].z * around.W.value(r2)), to_double(inverse_support * d));
     });
   }
 
@@ -160,18 +151,9 @@ ProfilePoint point_of(const Sample& sample, Vec3d position, double distance) {
 }  // namespace
 
 LevelState level_of(const std::vector<ProfilePoint>& line) {
-  constexpr double half = 0.5;
-  LevelState level{std::numeric_limits<double>::quiet_NaN(), 0};
-  for (std::size_t k = 1; k < line.size(); ++k) {
-    const ProfilePoint &a = line[k - 1], &b = line[k];
-    const bool from = a.fill >= half, to = b.fill >= half;
-    if (!from && !to) continue;
-    const double length = b.distance - a.distance;
-    const double crossing = from == to ? 0 : (half - a.fill) / (b.fill - a.fill) * length;
-    level.thickness += from && to ? length : from ? crossing : length - crossing;
-    level.surface = to ? b.distance : a.distance + crossing;
-  }
-  return level;
+  LevelSearch search;
+  for (const ProfilePoint& p : line) search.add(p.distance, p.fill);
+  return {search.surface < 0 ? std::numeric_limits<double>::quiet_NaN() : search.surface, search.thickness};
 }
 
 PlaneCounters::PlaneCounters(const SimulationSetup& setup)
@@ -230,6 +212,12 @@ std::vector<PlaneState> PlaneCounters::states(Context& c, const FluidArrays& f, 
   return result;
 }
 
+AroundPoint around(const ProfileSource& source) {
+  const auto reach = static_cast<Real>(static_cast<double>(source.smoothing.support) + source.drift);
+  return {source.cells.grid, source.cells.cell_start, source.fluid.place.span(),
+          source.box,        source.smoothing,        reach};
+}
+
 std::int64_t count_in_box(Context& c, const FluidArrays& f, const BoxSetup& box, Vec3d origin,
                           DiagnosticScratch& scratch) {
   return count(c, scratch, f.count, InBox{f.position.span(), box.lower - origin, box.upper - origin});
@@ -243,13 +231,10 @@ std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& sourc
   Buffer<Sample> result(c, "samples of a profile");
   point.upload(points);
   result.resize(points.size());
-  const CellGrid& grid = source.cells.grid;
-  const auto reach = static_cast<Real>(static_cast<double>(source.smoothing.support) + source.drift);
   const FluidArrays& f = source.fluid;
   launch(c, "profile", line.points,
-         InterpolateAtPoint{grid, source.cells.cell_start, f.place.span(), f.motion.span(), f.state.span(),
-                            f.shear_rate.span(), source.box, source.smoothing, 1 / source.smoothing.support,
-                            reach, point.span(), result.span()});
+         InterpolateAtPoint{around(source), f.motion.span(), f.state.span(), f.shear_rate.span(),
+                            1 / source.smoothing.support, point.span(), result.span()});
   std::vector<Sample> samples;
   result.download(samples);
   std::vector<ProfilePoint> profile;

@@ -64,6 +64,9 @@ struct ProfileSource {
   double drift;  // [m]
 };
 
+struct AroundPoint;
+AroundPoint around(const ProfileSource&);
+
 // The fluid at evenly spaced points of a line, both ends included: a linear function fitted to the particles
 // within the support, weighted by V_j W, so that linear fields come out exactly, next to walls and free
 // surfaces too. Without value (not-a-number) where less than a quarter of the support is filled.

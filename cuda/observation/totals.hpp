@@ -48,6 +48,28 @@ struct LevelState {
   double surface = 0, thickness = 0;
 };
 
+// Particles that went through a rectangle since the start, along its normal and against it, by fluid.
+struct FluxState {
+  std::vector<std::int64_t> forward, backward;
+};
+
+// Where fluid is on a wall, and its pressure on the surface; without fluid the pressures are not-a-number.
+struct ContactState {
+  double area = 0, wetted = 0;  // [m^2]; [m] with two dimensions
+  double mean_pressure = 0;     // [Pa] over the wetted area
+  double largest_pressure = 0;  // [Pa]
+  Vec3d place;                  // [m] of that
+};
+
+// How long particles were in the domain before they came to an outlet, by those that have; not-a-number
+// without any. Those of the start came at the start.
+struct ResidenceState {
+  std::int64_t left = 0;
+  double mean = 0, deviation = 0;       // [s]
+  std::array<double, 5> percentiles{};  // [s] 5, 25, 50, 75 and 95 %
+  double mean_inside = 0;               // [s] age of the fluid in the domain
+};
+
 struct Totals {
   std::int64_t particles = 0;                  // fluid particles in the domain
   std::array<std::int64_t, 6> departed{};      // through -x +x -y +y -z +z
@@ -69,9 +91,13 @@ struct Totals {
   std::vector<FrontState> fronts;   // one per SimulationSetup::fronts
   std::vector<PlaneState> planes;   // one per SimulationSetup::planes
   std::vector<LevelState> levels;   // one per SimulationSetup::levels
-  std::vector<std::int64_t> boxes;  // particles in each of SimulationSetup::boxes
-  double impulse_time = 0;          // [s] until which their impulses were gathered: that of the velocities
-  std::vector<WallLoad> walls;      // one per SimulationSetup::bodies where SimulationSetup::measure_walls
+  std::vector<FluxState> fluxes;    // one per SimulationSetup::rectangles
+  std::vector<std::vector<LevelState>> surfaces;  // one per column of each SimulationSetup::surfaces
+  std::vector<ContactState> contacts;             // one per SimulationSetup::contacts
+  std::vector<ResidenceState> residences;         // one per SimulationSetup::residences
+  std::vector<std::int64_t> boxes;                // particles in each of SimulationSetup::boxes
+  double impulse_time = 0;      // [s] until which their impulses were gathered: that of the velocities
+  std::vector<WallLoad> walls;  // one per SimulationSetup::bodies where SimulationSetup::measure_walls
 };
 
 }  // namespace slagflow

@@ -79,6 +79,9 @@ Simulation::State::State(const SimulationSetup& s)
       diagnostics(context),
       watch(context, setup),
       planes(s),
+      rectangles(s),
+      contact(context),
+      residence(context),
       below_faces(context),
       sheets(context),
       step_graph(context, "steps"),
@@ -92,6 +95,7 @@ Simulation::State::State(const SimulationSetup& s)
   upload_fluid();
   upload_walls();
   planes.begin(context, fluid, diagnostics);
+  residence.start(setup);
   list_places.copy_from(fluid.place);
   rebuild();
   extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
@@ -137,6 +141,7 @@ void Simulation::State::upload_walls() {
   inlets.upload(setup);
   walls.place({time, dt, 0}, wall), inlets.place({time, dt, 0}, wall);
   if (knows_wall_forces()) wall_forces.start(setup.walls.body);
+  contact.start(setup);
   setup.walls.normal = setup.walls.back_normal = {};
   setup.walls.depth = setup.walls.back_depth = {};
   ordering.sort(wall);
@@ -145,6 +150,8 @@ void Simulation::State::upload_walls() {
 void Simulation::State::rebuild() {
   Section timer(context, "neighbours");
   planes.advance(context, fluid, list_places.span(), diagnostics, ordering.outlets());
+  rectangles.advance(context, fluid, list_places.span(), diagnostics);
+  residence.leave(fluid, ordering.outlets(), time, diagnostics);
   const bool fed = feed();
   ordering.sort(fluid, departed);
   check_departure();
@@ -164,10 +171,11 @@ void Simulation::State::rebuild() {
 // What the inlets have brought since the last time. Whether there was any.
 bool Simulation::State::feed() {
   if (!inlets.any()) return false;
-  const Index before = fluid.count;
-  const FedParticles fed = inlets.feed({time, last_dt, next_id()}, wall, fluids.span(), flow, fluid);
+  const Index before = fluid.count, first_id = next_id();
+  const FedParticles fed = inlets.feed({time, last_dt, first_id}, wall, fluids.span(), flow, fluid);
   if (fed.position.empty()) return false;
   planes.add(fed.position);
+  residence.enter(first_id, time);
   given += energy_from(context, before, fluid, fluids.span(), setup, diagnostics);
   inlets.place({time, dt, last_dt}, wall);
   return true;

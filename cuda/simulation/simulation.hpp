@@ -161,6 +161,8 @@ class Simulation {
   void start_reading(StateTransfer&, Reading);
   // Along SimulationSetup::lines[line].
   std::vector<ProfilePoint> profile(std::size_t line) const;
+  // In the columns of SimulationSetup::surfaces[index].
+  std::vector<LevelState> surface(std::size_t index) const;
 
  private:
   friend class StateTransfer;

@@ -1,4 +1,5 @@
 // What a simulation tells of itself: totals and profiles.
+#include "observation/surfaces.hpp"
 #include "simulation/simulation_state.hpp"
 #include "viscosity/shear_stress.hpp"
 
@@ -62,6 +63,10 @@ Totals Simulation::totals() {
   s.tell_passed(t);
   t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
   for (const LineSetup& line : s.setup.levels) t.levels.push_back(level_of(s.profile(line)));
+  t.fluxes = s.rectangles.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
+  for (std::size_t k = 0; k < s.setup.surfaces.size(); ++k) t.surfaces.push_back(surface(k));
+  t.contacts = s.contact.states(s.pairs(), s.wall_to_fluid.view());
+  t.residences = s.residence.states(s.fluid, s.time, s.diagnostics);
   for (const BoxSetup& box : s.setup.boxes)
     t.boxes.push_back(count_in_box(s.context, s.fluid, box, s.setup.domain.lower, s.diagnostics));
   return t;
@@ -71,9 +76,17 @@ std::vector<ProfilePoint> Simulation::profile(std::size_t line) const {
   return state_->profile(state_->setup.lines.at(line));
 }
 
+std::vector<LevelState> Simulation::surface(std::size_t index) const {
+  State& s = *state_;
+  return measure_surface(s.context, s.profile_source(), s.setup.surfaces.at(index), s.setup.domain.lower);
+}
+
+ProfileSource Simulation::State::profile_source() const {
+  return {fluid, ordering.fluid_sources(fluid), box, flow.smoothing, displacement};
+}
+
 std::vector<ProfilePoint> Simulation::State::profile(const LineSetup& line) {
-  const ProfileSource source{fluid, ordering.fluid_sources(fluid), box, flow.smoothing, displacement};
-  return measure_profile(context, source, line, setup.domain.lower);
+  return measure_profile(context, profile_source(), line, setup.domain.lower);
 }
 
 void Simulation::State::measure_stress(Span<Real> result) {

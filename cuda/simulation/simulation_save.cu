@@ -134,7 +134,8 @@ template <class Visitor, class State>
 void visit_parts(Visitor& v, State& s) {
   s.fluid.each(Fate::saved, [&](auto& array) { v.array(array.field.name, array); });
   s.wall.each(Fate::saved, [&](auto& array) { v.as_many(array.field.name, array); });
-  s.wall_forces.save(v), s.planes.save(v), s.viscous.save(v), s.watch.save(v);
+  s.wall_forces.save(v), s.planes.save(v), s.rectangles.save(v), s.residence.save(v), s.viscous.save(v),
+      s.watch.save(v);
   v.array("list_places", s.list_places), v.as_many("departed", s.departed);
   v.as_many("removed", s.ordering.removed);
   visit_solves(v, s.solver, s.report);

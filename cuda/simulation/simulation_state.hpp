@@ -13,7 +13,10 @@
 #include "observation/diagnostics.hpp"
 #include "observation/measures.hpp"
 #include "observation/penetration.hpp"
+#include "observation/rectangles.hpp"
+#include "observation/residence.hpp"
 #include "observation/sheets.hpp"
+#include "observation/wall_contact.hpp"
 #include "observation/wall_forces.hpp"
 #include "observation/watch.hpp"
 #include "openings/inlets.hpp"
@@ -51,6 +54,9 @@ struct Simulation::State {
   DiagnosticScratch diagnostics;
   Watch watch;
   PlaneCounters planes;
+  FluxCounters rectangles;
+  WallContact contact;
+  Residence residence;
   BelowFaces below_faces;
   SheetThickness sheets;
 
@@ -107,6 +113,7 @@ struct Simulation::State {
   void add_wall_forces();
   void shift();
   WallWork wall_work();
+  ProfileSource profile_source() const;
   std::vector<ProfilePoint> profile(const LineSetup&);
   void look();
   void check_finite();

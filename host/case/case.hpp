@@ -164,22 +164,43 @@ struct OutputSpec {
   double last_time() const { return until > 0 ? until : end_time; }
 };
 
-enum class MeasureType { front, jet, flow_rate, volume, profile, force, level };
+enum class MeasureType {
+  front,
+  jet,
+  flow_rate,
+  volume,
+  profile,
+  force,
+  level,
+  flux,
+  surface,
+  contact,
+  residence,
+  mixing
+};
 
 struct MeasureSpec {
   std::string name;
   MeasureType type = MeasureType::front;
-  double fraction = 0.002;  // front, jet: of all fluid particles that must have passed
-  Direction direction;      // front, flow_rate: the way it goes
-  double position = 0;      // [m] front, flow_rate: the line or plane, along that axis
-  Vec3d lip;                // [m] jet: the dam's lip
-  Direction outward;        // jet: horizontal, away from the wall
-  double bottom = 0;        // [m] jet: coordinate along gravity's axis where the leading edge arrives
-  Vec3d min, max;           // [m] volume: the box
-  Vec3d start, end;         // [m] profile, level: the line
-  int points = 50;          // profile: on the line, both ends included
-  int wall = 0;             // force: index into Case::walls
-  Vec3d about;              // [m] force: the point of its torque
+  double fraction = 0.002;       // front, jet: of all fluid particles that must have passed
+  Direction direction;           // front, flow_rate: the way it goes
+  double position = 0;           // [m] front, flow_rate: the line or plane, along that axis
+  Vec3d lip;                     // [m] jet: the dam's lip
+  Direction outward;             // jet: horizontal, away from the wall
+  double bottom = 0;             // [m] jet: coordinate along gravity's axis where the leading edge arrives
+  Vec3d min, max;                // [m] volume, mixing: the box
+  double cell = 0;               // [m] mixing: side of a cell; 0: five spacings
+  int fluid = 0;                 // mixing: index into Case::fluids
+  Vec3d start, end;              // [m] profile, level, surface: the line
+  int points = 50;               // profile, surface: on the line, both ends included
+  Vec3d across;                  // [m] surface: from the first line to the last
+  int rows = 1;                  // surface: lines
+  int wall = 0;                  // force, contact: index into Case::walls
+  Vec3d about;                   // [m] force: the point of its torque
+  Vec3d center, normal;          // [m] flux: of the rectangle
+  Vec3d up;                      // flux: along its height; 0: as much upwards as normal allows
+  double height = 0, width = 0;  // [m] flux
+  int outlet = 0;                // residence: index into Case::outlets
 };
 
 struct Case {

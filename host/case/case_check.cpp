@@ -121,6 +121,37 @@ void check_profile(const Case& c, std::size_t index, CaseProblems& problems) {
     problems.add(measure_key(index) + ".end", "is the start: allowed: another point");
 }
 
+// The lines of a surface go across gravity, as its columns go along it.
+void check_surface(const Case& c, std::size_t index, CaseProblems& problems) {
+  const MeasureSpec& measure = c.measures[index];
+  const std::string key = measure_key(index);
+  const int axis = down(c).axis;
+  if (c.gravity[axis] == 0)
+    return problems.add(key + ".type", "a surface needs gravity: allowed: gravity.acceleration other than 0");
+  check_profile(c, index, problems);
+  if (!in_domain(c, measure.start + measure.across) || !in_domain(c, measure.end + measure.across))
+    problems.add(key + ".across", "value " + text_of(measure.across) +
+                                      " leads out of the domain: allowed: lines from " +
+                                      text_of(c.domain.lower) + " to " + text_of(c.domain.upper) + " [m]");
+  Vec3d along = measure.end - measure.start;
+  along[axis] = 0;
+  if (norm(along) == 0 && !(measure.start == measure.end))
+    problems.add(key + ".end", "value " + text_of(measure.end) +
+                                   " is straight above or below the start: allowed: a line across gravity; "
+                                   "along it type = \"level\" measures");
+}
+
+void check_flux(const Case& c, std::size_t index, CaseProblems& problems) {
+  const MeasureSpec& measure = c.measures[index];
+  const std::string key = measure_key(index);
+  if (!in_domain(c, measure.center))
+    problems.add(key + ".center", "value " + text_of(measure.center) + " is outside the domain: allowed: " +
+                                      text_of(c.domain.lower) + " to " + text_of(c.domain.upper) + " [m]");
+  if (c.dimensions == 2 && measure.normal.y != 0)
+    problems.add(key + ".normal", "y component " + show(measure.normal.y) +
+                                      " with two dimensions: allowed: 0, the plane is x-z");
+}
+
 void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
   switch (c.measures[index].type) {
     case MeasureType::front:
@@ -129,11 +160,18 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
     case MeasureType::jet:
       return check_jet(c, index, problems);
     case MeasureType::volume:
+    case MeasureType::mixing:
       return check_box(c, measure_key(index), c.measures[index].min, c.measures[index].max, problems);
     case MeasureType::profile:
     case MeasureType::level:
       return check_profile(c, index, problems);
+    case MeasureType::flux:
+      return check_flux(c, index, problems);
+    case MeasureType::surface:
+      return check_surface(c, index, problems);
     case MeasureType::force:
+    case MeasureType::contact:
+    case MeasureType::residence:
       return;
   }
 }
@@ -143,7 +181,8 @@ void check_measures(const Case& c, CaseProblems& problems) {
     const std::string key = measure_key(m);
     if (!problems.fine({key + ".type", key + ".direction", key + ".position", key + ".lip", key + ".outward",
                         key + ".bottom", key + ".min", key + ".max", key + ".start", key + ".end",
-                        "domain.min", "domain.max", "gravity.acceleration"}))
+                        key + ".center", key + ".normal", key + ".across", "domain.min", "domain.max",
+                        "gravity.acceleration"}))
       continue;
     check_measure(c, m, problems);
   }

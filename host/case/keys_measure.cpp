@@ -5,7 +5,8 @@
 namespace slagflow {
 namespace {
 
-const Words measure_names{"front", "jet", "flow_rate", "volume", "profile", "force", "level"};
+const Words measure_names{"front", "jet",  "flow_rate", "volume",  "profile",   "force",
+                          "level", "flux", "surface",   "contact", "residence", "mixing"};
 
 void describe_direction(CaseVisitor& v, const Key& k, Direction& direction) {
   int index = index_of(direction);
@@ -39,27 +40,92 @@ void describe_line(CaseVisitor& v, MeasureSpec& m) {
   v.vector(required("end", "of the line"), m.end, any_number("m"));
 }
 
-void describe_profile(CaseVisitor& v, MeasureSpec& m) {
-  v.integer(key("points", "on the line, both ends included"), m.points, {2, 10000});
+// A line, or lines side by side.
+void describe_points(CaseVisitor& v, MeasureSpec& m) {
+  const bool surface = m.type == MeasureType::surface;
+  if (const auto with = v.only(m.type == MeasureType::profile || surface, {"type", {"profile", "surface"}}))
+    v.integer(key("points", "on the line, both ends included"), m.points, {2, 10000});
+  if (const auto with = v.only(surface, {"type", {"surface"}})) {
+    v.integer(key("rows",
+                  "lines side by side, the first and the last included: a grid; points times rows "
+                  "up to 100000"),
+              m.rows, {1, 10000});
+    v.vector(key("across", "from the first line to the last, where there are more than one"), m.across,
+             any_number("m"));
+    if (m.rows > 1 && norm(m.across) == 0)
+      v.problem("across", "is [0, 0, 0] with " + std::to_string(m.rows) +
+                              " rows: allowed: another vector, from the first line to the last");
+    if (m.points * m.rows > 100000)
+      v.problem("rows", "value " + std::to_string(m.rows) + " makes " + std::to_string(m.points * m.rows) +
+                            " columns: allowed: points times rows up to 100000");
+  }
 }
 
-void describe_force(CaseVisitor& v, const Case& c, MeasureSpec& m) {
+void describe_wall_of(CaseVisitor& v, const Case& c, MeasureSpec& m) {
+  const bool force = m.type == MeasureType::force;
+  if (const auto with = v.only(force || m.type == MeasureType::contact, {"type", {"force", "contact"}})) {
+    Words names;
+    for (const WallSpec& wall : c.walls) names.push_back(wall.name);
+    v.reference(required("wall", "name of the wall"), m.wall, names, "a wall");
+  }
+  if (const auto with = v.only(force, {"type", {"force"}}))
+    v.vector(key("about", "point of the torque"), m.about, any_number("m"));
+}
+
+// As the rectangle of an inlet.
+void describe_flux(CaseVisitor& v, const Case& c, MeasureSpec& m) {
+  v.vector(required("center", "of the rectangle"), m.center, any_number("m"));
+  if (v.vector(required("normal", "square to the rectangle, of any length: the way that counts as forward"),
+               m.normal, any_number("")) &&
+      norm(m.normal) == 0)
+    v.problem("normal", "value [0, 0, 0]: allowed: a vector of any length above 0");
+  v.number(required("height", "of the rectangle"), m.height, above(0, "m"));
+  if (const auto with = v.only(c.dimensions == 3, {"dimensions = 3"})) {
+    Key width = key("width", "across up and normal").by_default("required with three dimensions");
+    if (c.dimensions == 3) width.need = Need::required;
+    v.number(width, m.width, above(0, "m"));
+    v.vector(key("up", "along the height, made square to normal; [0, 0, 0]: as much upwards as that allows"),
+             m.up, any_number(""));
+  }
+}
+
+// A case with one fluid has nothing that mixes.
+void describe_mixing(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   Words names;
-  for (const WallSpec& wall : c.walls) names.push_back(wall.name);
-  v.reference(required("wall", "name of the wall"), m.wall, names, "a wall");
-  v.vector(key("about", "point of the torque"), m.about, any_number("m"));
+  for (const FluidSpec& fluid : c.fluids) names.push_back(fluid.name);
+  v.reference(required("fluid", "name of the fluid whose share is looked at"), m.fluid, names, "a fluid");
+  v.number(key("cell", "side of the cells").by_default("five spacings"), m.cell, at_least(0, "m"));
+  if (c.fluids.size() == 1)
+    v.problem(
+        "type",
+        "value \"mixing\" with one fluid: allowed: two or more, which may be alike: they tell what comes "
+        "from where");
+}
+
+void describe_residence(CaseVisitor& v, const Case& c, MeasureSpec& m) {
+  Words names;
+  for (const OutletSpec& outlet : c.outlets) names.push_back(outlet.name);
+  v.reference(required("outlet", "name of the outlet that the fluid leaves through"), m.outlet, names,
+              "an outlet");
 }
 
 void describe_measure(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   describe_own_name(v, required("name", "unique; letters, digits, _ - ."), c.measures, m);
   if (!v.choice(required("type", "see Measures"), m.type, measure_names)) return;
   describe_passing(v, m);
-  if (const auto with = v.only(m.type == MeasureType::volume, {"type", {"volume"}})) describe_volume(v, m);
-  if (const auto with = v.only(m.type == MeasureType::profile || m.type == MeasureType::level,
-                               {"type", {"profile", "level"}}))
+  if (const auto with = v.only(m.type == MeasureType::volume || m.type == MeasureType::mixing,
+                               {"type", {"volume", "mixing"}}))
+    describe_volume(v, m);
+  const auto is = [&](MeasureType type) { return m.type == type; };
+  if (const auto with = v.only(is(MeasureType::profile) || is(MeasureType::level) || is(MeasureType::surface),
+                               {"type", {"profile", "level", "surface"}}))
     describe_line(v, m);
-  if (const auto with = v.only(m.type == MeasureType::profile, {"type", {"profile"}})) describe_profile(v, m);
-  if (const auto with = v.only(m.type == MeasureType::force, {"type", {"force"}})) describe_force(v, c, m);
+  describe_points(v, m);
+  describe_wall_of(v, c, m);
+  if (const auto with = v.only(is(MeasureType::flux), {"type", {"flux"}})) describe_flux(v, c, m);
+  if (const auto with = v.only(is(MeasureType::mixing), {"type", {"mixing"}})) describe_mixing(v, c, m);
+  if (const auto with = v.only(is(MeasureType::residence), {"type", {"residence"}}))
+    describe_residence(v, c, m);
 }
 
 }  // namespace

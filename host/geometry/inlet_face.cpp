@@ -14,12 +14,10 @@
 namespace slagflow {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double flat = 1e-3;  // of its size, that a patch may be bent
-
 Vec3d unit(Vec3d v) { return v * (1 / norm(v)); }
 
-// v as near to `up` as the normal allows.
+}  // namespace
+
 FaceFrame frame_of(const Case& c, Vec3d center, Vec3d normal, Vec3d up) {
   FaceFrame f{center, unit(normal), {}, {}};
   if (c.dimensions == 2) {
@@ -34,6 +32,11 @@ FaceFrame frame_of(const Case& c, Vec3d center, Vec3d normal, Vec3d up) {
   f.v = unit(v), f.u = cross(f.v, f.normal);
   return f;
 }
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double flat = 1e-3;  // of its size, that a patch may be bent
 
 double side(Vec3d a, Vec3d b, Vec3d p, Vec3d normal) { return dot(cross(b - a, p - a), normal); }
 

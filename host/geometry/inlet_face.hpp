@@ -16,6 +16,9 @@ struct FaceFrame {
   Vec3d at(double x, double y) const { return center + x * u + y * v; }
 };
 
+// v as near to `up` as the normal allows, which may have any length.
+FaceFrame frame_of(const Case&, Vec3d center, Vec3d normal, Vec3d up);
+
 // The face: whether it holds a place, and its area.
 struct InletOutline {
   FaceFrame frame;

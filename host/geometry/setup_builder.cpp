@@ -8,6 +8,7 @@
 #include "host/geometry/enclosed.hpp"
 #include "host/geometry/geometry.hpp"
 #include "host/geometry/inlets.hpp"
+#include "host/geometry/measure_setup.hpp"
 #include "host/geometry/settling.hpp"
 #include "host/geometry/setup_warnings.hpp"
 #include "host/geometry/slips.hpp"
@@ -58,33 +59,6 @@ void add_background(BuiltCase& built, Filling& filling, bool closed) {
   for (double& pressure : filling.fluid.pressure) pressure += background;
 }
 
-// Four points a spacing.
-LineSetup level_line(const Case& c, const MeasureSpec& measure) {
-  const double points = std::ceil(4 * norm(measure.end - measure.start) / c.spacing) + 1;
-  return {measure.start, measure.end, static_cast<int>(std::clamp(points, 2.0, 20000.0))};
-}
-
-// What the simulation measures, by kind, in the order of the case.
-void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& setup) {
-  const FrontSetup plane{measure.direction.axis, measure.direction.sign, measure.position};
-  switch (measure.type) {
-    case MeasureType::front:
-      return setup.fronts.push_back(plane);
-    case MeasureType::jet:
-      return setup.fronts.push_back({down(c).axis, down(c).sign, measure.bottom});
-    case MeasureType::flow_rate:
-      return setup.planes.push_back(plane);
-    case MeasureType::volume:
-      return setup.boxes.push_back({measure.min, measure.max});
-    case MeasureType::profile:
-      return setup.lines.push_back({measure.start, measure.end, measure.points});
-    case MeasureType::level:
-      return setup.levels.push_back(level_line(c, measure));
-    case MeasureType::force:
-      setup.measure_walls = true;
-  }
-}
-
 // Fluid with a free surface does as well without, and surface tension holds its particles in order.
 double automatic_shifting(const Case& c, bool closed) {
   return closed && !has_surface_tension(c) && c.numerics.kernel != SmoothingKind::lucy ? 1 : 0;
@@ -127,7 +101,7 @@ BuiltCase build_setup(const Case& c) {
   setup.numerics = built.resolved.numerics;
   if (!(c.limits.max_speed > 0)) built.resolved.limits.max_speed = runaway_mach * setup.numerics.sound_speed;
   setup.limits = built.resolved.limits;
-  for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
+  add_measures(c, setup);
   warn_of_setup(built, wall_speeds);
   warn_of_slips(c, setup, built.warnings);
   return built;

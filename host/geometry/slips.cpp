@@ -100,15 +100,20 @@ void warn_of_missed_plane(const MeasureSpec& measure, std::vector<std::string>& 
       if (measure.outward.axis == 1) warn("goes along y");
       return;
     case MeasureType::volume:
+    case MeasureType::mixing:
       if (measure.min.y > 0 || measure.max.y < 0)
         warn("has y from " + show(measure.min.y) + " to " + show(measure.max.y) + " m");
       return;
     case MeasureType::profile:
     case MeasureType::level:
+    case MeasureType::surface:
       if (measure.start.y != 0 || measure.end.y != 0)
         warn("has a line with y = " + show(measure.start.y != 0 ? measure.start.y : measure.end.y) + " m");
       return;
     case MeasureType::force:
+    case MeasureType::flux:  // at y = 0 wherever its center is
+    case MeasureType::contact:
+    case MeasureType::residence:
       return;
   }
 }

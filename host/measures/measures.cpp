@@ -4,9 +4,14 @@
 
 #include "backend/error.hpp"
 #include "host/geometry/inlets.hpp"
+#include "host/measures/measure_contact.hpp"
+#include "host/measures/measure_flux.hpp"
 #include "host/measures/measure_force.hpp"
 #include "host/measures/measure_front.hpp"
 #include "host/measures/measure_level.hpp"
+#include "host/measures/measure_mixing.hpp"
+#include "host/measures/measure_residence.hpp"
+#include "host/measures/measure_surface.hpp"
 #include "host/measures/measure_volume.hpp"
 #include "host/measures/profiles.hpp"
 
@@ -16,7 +21,23 @@ namespace {
 // The setup lists what is measured by kind, in the order of the case; this counts along.
 struct Counts {
   std::size_t fronts = 0, planes = 0, boxes = 0, lines = 0, levels = 0;
+  std::size_t fluxes = 0, surfaces = 0, contacts = 0, residences = 0;
 };
+
+std::unique_ptr<Measure> make_probe(const MeasureSpec& spec, const SimulationSetup& setup, Counts& next) {
+  switch (spec.type) {
+    case MeasureType::flux:
+      return std::make_unique<FluxMeasure>(spec, setup, next.fluxes++);
+    case MeasureType::surface:
+      return std::make_unique<SurfaceMeasure>(spec, setup, next.surfaces++);
+    case MeasureType::mixing:
+      return std::make_unique<MixingMeasure>(spec, setup);
+    case MeasureType::contact:
+      return std::make_unique<ContactMeasure>(spec, setup, next.contacts++);
+    default:
+      return std::make_unique<ResidenceMeasure>(spec, setup, next.residences++);
+  }
+}
 
 std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationSetup& setup, std::int64_t fed,
                                       Counts& next) {
@@ -45,10 +66,12 @@ std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationS
       return std::make_unique<LevelMeasure>(spec, next.levels++);
     case MeasureType::profile:
       return std::make_unique<ProfileMeasure>(spec, setup.lines.at(next.lines++));
-    default: {
+    case MeasureType::front: {
       const std::size_t index = next.fronts++;
       return std::make_unique<FrontMeasure>(spec, setup.fronts.at(index), index, particles);
     }
+    default:
+      return make_probe(spec, setup, next);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "host/measures/profiles.hpp"
 
 #include "backend/error.hpp"
+#include "host/measures/measure_surface.hpp"
 #include "host/measures/measure_text.hpp"
 #include "host/output/checkpoint_store.hpp"
 
@@ -12,14 +13,20 @@ std::vector<std::string> profile_columns() {
           "shear_rate_1_s", "viscosity_Pa_s", "fill"};
 }
 
-std::vector<std::string> paths_of(const Case& c, const std::string& folder) {
-  std::vector<std::string> paths;
-  for (const MeasureSpec& m : c.measures)
-    if (m.type == MeasureType::profile) paths.push_back(folder + "/" + profile_file(m.name));
-  return paths;
+std::vector<std::string> columns_of(MeasureType type) {
+  return type == MeasureType::profile ? profile_columns() : surface_columns();
 }
 
 }  // namespace
+
+std::vector<MeasureFile> measure_files(const Case& c) {
+  std::vector<MeasureFile> files;
+  for (const MeasureType type : {MeasureType::profile, MeasureType::surface})
+    for (const MeasureSpec& m : c.measures)
+      if (m.type == type)
+        files.push_back({type, type == MeasureType::profile ? profile_file(m.name) : surface_file(m.name)});
+  return files;
+}
 
 Json ProfileMeasure::summary() const {
   return Json::object().set("type", type()).set("points", line_.points).set("file", profile_file(name()));
@@ -31,24 +38,34 @@ std::string ProfileMeasure::line() const {
 
 std::string profile_file(const std::string& name) { return "profile_" + name + ".csv"; }
 
-ProfileFiles::ProfileFiles(const Case& c, const std::string& folder) {
-  for (const std::string& path : paths_of(c, folder)) files_.emplace_back(path, profile_columns());
+ProfileFiles::ProfileFiles(const Case& c, const SimulationSetup& setup, const std::string& folder)
+    : surfaces_(setup.surfaces) {
+  for (const MeasureFile& file : measure_files(c))
+    files_.emplace_back(folder + "/" + file.name, columns_of(file.type));
 }
 
-ProfileFiles::ProfileFiles(const Case& c, const std::string& folder, const std::vector<std::int64_t>& ends) {
-  const std::vector<std::string> paths = paths_of(c, folder);
-  if (ends.size() != 2 * paths.size())
+ProfileFiles::ProfileFiles(const Case& c, const SimulationSetup& setup, const std::string& folder,
+                           const std::vector<std::int64_t>& ends)
+    : surfaces_(setup.surfaces) {
+  const std::vector<MeasureFile> files = measure_files(c);
+  if (ends.size() != 2 * files.size())
     throw Error("checkpoint: " + std::to_string(ends.size()) + " numbers for " +
-                std::to_string(paths.size()) + " profiles");
-  for (std::size_t k = 0; k < paths.size(); ++k)
-    files_.emplace_back(paths[k], profile_columns(), HistoryEnd{ends[2 * k], ends[2 * k + 1]});
+                std::to_string(files.size()) + " profiles");
+  for (std::size_t k = 0; k < files.size(); ++k)
+    files_.emplace_back(folder + "/" + files[k].name, columns_of(files[k].type),
+                        HistoryEnd{ends[2 * k], ends[2 * k + 1]});
 }
 
 void ProfileFiles::write(const Simulation& simulation) {
-  for (std::size_t k = 0; k < files_.size(); ++k)
+  const double time = simulation.time();
+  const std::size_t profiles = files_.size() - surfaces_.size();
+  for (std::size_t k = 0; k < profiles; ++k)
     for (const ProfilePoint& p : simulation.profile(k))
-      files_[k].write({simulation.time(), p.distance, p.position.x, p.position.y, p.position.z, p.velocity.x,
-                       p.velocity.y, p.velocity.z, p.shear_rate, p.viscosity, p.fill});
+      files_[k].write({time, p.distance, p.position.x, p.position.y, p.position.z, p.velocity.x, p.velocity.y,
+                       p.velocity.z, p.shear_rate, p.viscosity, p.fill});
+  for (std::size_t k = 0; k < surfaces_.size(); ++k)
+    for (const std::vector<double>& line : surface_lines(time, surfaces_[k], simulation.surface(k)))
+      files_[profiles + k].write(line);
 }
 
 std::vector<std::int64_t> ProfileFiles::finish() {

@@ -29,20 +29,29 @@ class ProfileMeasure : public Measure {
 // "profile_NAME.csv"
 std::string profile_file(const std::string& name);
 
-// The files of a run's profiles, in the order of the case.
+// The files that a case's profiles and surfaces are written to, in the order in which a run holds them.
+struct MeasureFile {
+  MeasureType type;
+  std::string name;
+};
+std::vector<MeasureFile> measure_files(const Case&);
+
+// The files of a run's profiles and surfaces.
 class ProfileFiles {
  public:
   // Begins the files in a folder, or goes on with them behind `ends` (see HistoryFile): two numbers, lines
   // and bytes, for each. Throws Error.
-  ProfileFiles(const Case&, const std::string& folder);
-  ProfileFiles(const Case&, const std::string& folder, const std::vector<std::int64_t>& ends);
+  ProfileFiles(const Case&, const SimulationSetup&, const std::string& folder);
+  ProfileFiles(const Case&, const SimulationSetup&, const std::string& folder,
+               const std::vector<std::int64_t>& ends);
 
-  // Adds the profiles of now, a line for each point. Throws Error.
+  // Adds those of now, a line for each point or column. Throws Error.
   void write(const Simulation&);
   // What lies in the files so far; they are on disk afterwards.
   std::vector<std::int64_t> finish();
 
  private:
+  std::vector<SurfaceSetup> surfaces_;
   std::vector<HistoryFile> files_;
 };
 

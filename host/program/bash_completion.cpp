@@ -2,6 +2,7 @@
 
 #include "host/case/case_catalogue.hpp"
 #include "host/program/command_line.hpp"
+#include "host/program/init.hpp"
 
 namespace slagflow {
 namespace {
@@ -49,6 +50,12 @@ std::string keys_to_set() {
 std::string topics() {
   std::string text;
   for (const CatalogueKey& k : catalogue().keys()) text += (text.empty() ? "" : " ") + k.path();
+  return text;
+}
+
+std::string templates() {
+  std::string text;
+  for (const CaseTemplate& one : case_templates()) text += (text.empty() ? "" : " ") + std::string(one.name);
   return text;
 }
 
@@ -104,6 +111,10 @@ _slagflow() {
       COMPREPLY=($(compgen -f -- "$cur"))
       return
       ;;
+    --template)
+      COMPREPLY=($(compgen -W '@TEMPLATES@' -- "$cur"))
+      return
+      ;;
     --from)
       COMPREPLY=($(compgen -d -- "$cur"))
       return
@@ -112,6 +123,7 @@ _slagflow() {
   case $command,$cur in
     *,-*) _slagflow_options "$command" ;;
     help,*) COMPREPLY=($(compgen -W '@TOPICS@' -- "$cur")) ;;
+    init,*) COMPREPLY=($(compgen -W '@TEMPLATES@' -- "$cur")) ;;
     resume,*) COMPREPLY=($(compgen -d -- "$cur")) ;;
     run,* | check,*) COMPREPLY=($(compgen -f -X '!*.toml' -- "$cur") $(compgen -d -S / -- "$cur")) ;;
     *) COMPREPLY=($(compgen -f -- "$cur")) ;;
@@ -125,10 +137,12 @@ complete -F _slagflow slagflow
 std::string bash_completion(const CommandLine& line) {
   std::string options, text = script;
   for (const Command& command : line.commands) options += branch(command.name, options_of(command));
-  for (const auto& [mark, words] : {std::pair{"@VALUES@", values()}, std::pair{"@OPTIONS@", options},
-                                    std::pair{"@COMMANDS@", commands_of(line)},
-                                    std::pair{"@KEYS@", keys_to_set()}, std::pair{"@TOPICS@", topics()}})
-    text.replace(text.find(mark), std::string(mark).size(), words);
+  for (const auto& [mark, words] :
+       {std::pair{"@VALUES@", values()}, std::pair{"@OPTIONS@", options},
+        std::pair{"@COMMANDS@", commands_of(line)}, std::pair{"@KEYS@", keys_to_set()},
+        std::pair{"@TOPICS@", topics()}, std::pair{"@TEMPLATES@", templates()}})
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark))
+      text.replace(at, std::string(mark).size(), words);
   return text;
 }
 

@@ -1,10 +1,13 @@
 #include "host/program/program.hpp"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 #include <new>
 #include <sstream>
 #include <string>
@@ -18,6 +21,7 @@
 #include "host/output/provenance.hpp"
 #include "host/program/command_line.hpp"
 #include "host/program/info.hpp"
+#include "host/program/init.hpp"
 #include "host/program/key_help.hpp"
 #include "host/rheometry/rheometry.hpp"
 #include "host/run/check.hpp"
@@ -34,10 +38,11 @@ struct Arguments {
   std::string topic;
   HelpForm help = HelpForm::text;
   std::string from;
-  bool json = false;
+  bool json = false, calibrate = false;
   std::vector<std::string> overrides;
   RunOptions run;
   RheometryOptions rheometry;
+  InitOptions init;
 };
 
 // Throws Error where stdout does not take it, but where its reader has left: he has read enough.
@@ -88,7 +93,7 @@ int resume(Arguments arguments) {
 
 int check(const Arguments& arguments) {
   const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
-  const CaseCheck found = check_case(built);
+  const CaseCheck found = check_case(built, machine_speed(built.setup.dimensions, arguments.calibrate));
   if (arguments.json)
     print(Json::object().set("case", arguments.file).set("valid", true).set("check", to_json(found)).text() +
           "\n");
@@ -99,6 +104,12 @@ int check(const Arguments& arguments) {
 
 int info(const Arguments& arguments) {
   print(describe_file(arguments.file));
+  return 0;
+}
+
+int init(Arguments arguments) {
+  arguments.init.terminal = isatty(STDIN_FILENO) != 0;
+  print(init_case(arguments.init, std::cin, std::cout));
   return 0;
 }
 
@@ -242,6 +253,25 @@ CLI::App* add_resume(CLI::App& app, Arguments& arguments) {
   return command;
 }
 
+CLI::App* add_init(CLI::App& app, InitOptions& options) {
+  CLI::App* const command =
+      app.add_subcommand("init", "write a commented case to begin with; on a terminal it asks for the fluid");
+  command->add_option("template", options.asked, "dam, runner, pouring, slump or viscometer")
+      ->type_name("TEMPLATE");
+  command->add_option("--template", options.given, "the same, and nothing is asked")->type_name("TEMPLATE");
+  command->add_option("-o,--output", options.output, "the case's file (default: TEMPLATE.toml)")
+      ->check(not_empty)
+      ->type_name("FILE");
+  for (const auto& [name, value, what] :
+       {std::tuple{"--density", &options.density, "of the fluid [kg/m^3]"},
+        std::tuple{"--viscosity", &options.viscosity, "once it flows [Pa s]"},
+        std::tuple{"--spacing", &options.spacing, "of the particles [m]"}})
+    command->add_option(name, *value, what)->check(above_zero);
+  command->add_option("--yield-stress", options.yield_stress, "[Pa]; 0: Newtonian")
+      ->check(CLI::Range(0.0, 1e30));
+  return command;
+}
+
 // A first word that is no command.
 void require_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-' || argv[1][0] == '\0') return;
@@ -264,8 +294,11 @@ int dispatch(int argc, const char* const* argv) {
   add_case(check_command, arguments)->required();
   add_set(check_command, arguments, set_a_key);
   check_command->add_flag("--json", arguments.json, "print it as JSON, numbers in SI units");
+  check_command->add_flag("--calibrate", arguments.calibrate,
+                          "measure anew how fast this machine computes, which takes a second");
   CLI::App* const info_command = app.add_subcommand("info", "what a .vtkhdf file or a checkpoint holds");
   info_command->add_option("file", arguments.file, "file of a run")->required()->type_name("FILE");
+  CLI::App* const init_command = add_init(app, arguments.init);
   CLI::App* const rheometry_command = add_rheometry(app, arguments.rheometry);
   CLI::App* const help_command = add_help(app, arguments);
   require_command(app, argc, argv);
@@ -279,6 +312,7 @@ int dispatch(int argc, const char* const* argv) {
   }
   if (run_command->parsed()) return run(arguments);
   if (resume_command->parsed()) return resume(arguments);
+  if (init_command->parsed()) return init(arguments);
   if (rheometry_command->parsed()) return rheometry(arguments);
   if (help_command->parsed()) return help(arguments, app);
   return check_command->parsed() ? check(arguments) : info(arguments);

@@ -15,6 +15,7 @@
 #include "host/geometry/inlet_face.hpp"
 #include "host/geometry/inlets.hpp"
 #include "host/measures/losses.hpp"
+#include "host/run/advice.hpp"
 
 namespace slagflow {
 namespace {
@@ -100,12 +101,15 @@ void add_numbers(CaseCheck& check, const SimulationSetup& setup) {
     const double yield_stress = parameter_of(fluid.rheology, ParameterRole::yield_stress);
     const double g = norm(setup.gravity);
     FluidNumbers numbers;
-    numbers.name = fluid.name;
+    numbers.name = fluid.name, numbers.capillary = unknown;
     numbers.reynolds = check.speed > 0 ? fluid.rest_density * check.speed * check.width / eta : unknown;
     numbers.bingham = check.speed > 0 ? yield_stress * check.width / (eta * check.speed) : unknown;
+    if (fluid.surface_tension > 0) numbers.capillary = eta * check.speed / fluid.surface_tension;
     numbers.dam = g > 0 ? fluid.rest_density * check.width * std::sqrt(g * check.depth) / eta : unknown;
     check.fluids.push_back(numbers);
   }
+  check.froude =
+      norm(setup.gravity) > 0 ? check.speed / std::sqrt(norm(setup.gravity) * check.depth) : unknown;
 }
 
 struct TimeStep {
@@ -196,12 +200,6 @@ std::string exits_text(const Case& c) {
          " of the domain is lost, beyond 0.1 % with a warning";
 }
 
-std::string duration(double seconds) {
-  if (seconds < 1) return "under a second";
-  if (seconds < 120) return format("%.0f s", seconds);
-  return seconds < 7200 ? format("%.0f min", seconds / 60) : format("%.1f h", seconds / 3600);
-}
-
 // What comes through an inlet.
 std::string inlet_text(const SimulationSetup& setup, const InletSetup& in, double last) {
   const double area = columns_area(setup, in);
@@ -215,7 +213,36 @@ std::string inlet_text(const SimulationSetup& setup, const InletSetup& in, doubl
                     (in.rate.travelled(last) - in.rate.travelled(setup.start_time)));
 }
 
-std::string number(double value) { return std::isnan(value) ? "-" : format("%.4g", value); }
+void add_facts(CaseCheck& check, const BuiltCase& built) {
+  const SimulationSetup& setup = built.setup;
+  check.pieces = fluid_pieces(setup, built.resolved.origin);
+  check.fluid_across = std::numeric_limits<double>::quiet_NaN();
+  for (const FluidPiece& piece : check.pieces)
+    if (!(piece.across >= check.fluid_across)) check.fluid_across = piece.across;
+  check.wall = thinnest_wall(built.resolved, setup);
+  const Vec3d &a = setup.domain.lower, &b = setup.domain.upper;
+  check.extents = format("(%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m", a.x, a.y, a.z, b.x, b.y, b.z);
+  check.files = stl_extents(built.resolved);
+}
+
+// Of what inlets bring half is there in the mean.
+void add_costs(CaseCheck& check, const BuiltCase& built) {
+  const OutputSpec& output = built.resolved.output;
+  const double particles = static_cast<double>(check.fluid_particles) + 0.5 * static_cast<double>(check.fed);
+  const double cost = check.exact_yield ? exact_yield_cost : 1;
+  const double speed =
+      check.machine.particle_steps > 0 ? check.machine.particle_steps : particle_steps_per_second;
+  check.run_time = check.steps * particles / speed * cost;
+  check.gpu_time = check.steps * modelled_gpu_step(particles) * cost;
+  const double time = output.last_time() - built.setup.start_time;
+  check.snapshots = output.interval > 0 ? std::floor(time / output.interval) + 1 : 0;
+  bool moves = false;
+  for (const WallSpec& wall : built.resolved.walls) moves = moves || wall.motion.moves();
+  const double walls =
+      built.resolved.output.walls ? bytes_per_snapshot_wall * static_cast<double>(check.wall_particles) : 0;
+  check.output =
+      check.snapshots * bytes_per_snapshot_particle * particles + (moves ? check.snapshots : 1) * walls;
+}
 
 // With all that inlets bring, of which nothing may have left.
 double memory_of(const SimulationSetup& setup, double last_time) {
@@ -261,7 +288,7 @@ void require_memory(const BuiltCase& built, double available) {
                    " are available: allowed: a larger spacing or smaller regions");
 }
 
-CaseCheck check_case(const BuiltCase& built) {
+CaseCheck check_case(const BuiltCase& built, const MachineSpeed& machine) {
   const SimulationSetup& setup = built.setup;
   CaseCheck check;
   check.fluid_particles = static_cast<std::int64_t>(setup.particles.position.size());
@@ -277,70 +304,17 @@ CaseCheck check_case(const BuiltCase& built) {
   add_numbers(check, setup);
   check.mach = check.speed / check.sound_speed;
   check.exits = exits_text(built.resolved);
-  const auto fluid = static_cast<double>(check.fluid_particles);
   const double last = built.resolved.output.last_time();
   check.memory = memory_of(setup, last);
   check.fed = fed_particles(setup, last) - fed_particles(setup, setup.start_time);
   for (const InletSetup& in : setup.inlets) check.inlets.push_back(inlet_text(setup, in, last));
   check.exact_yield = setup.numerics.yield == YieldModel::exact;
-  check.run_time = check.steps * (fluid + 0.5 * static_cast<double>(check.fed)) / particle_steps_per_second *
-                   (check.exact_yield ? exact_yield_cost : 1);
+  check.machine = machine;
+  add_facts(check, built);
+  add_costs(check, built);
   add_warnings(check, built);
+  check.advice = advice(check, built);
   return check;
-}
-
-std::string to_text(const CaseCheck& c) {
-  std::string text;
-  text += format("particles        %lld fluid, %lld wall\n", static_cast<long long>(c.fluid_particles),
-                 static_cast<long long>(c.wall_particles));
-  for (const std::string& inlet : c.inlets) text += inlet + "\n";
-  text += format("spacing          %.4g m, support radius h %.4g m\n", c.spacing, c.support_radius);
-  text += format("time step        %.4g s, limited by %s\n", c.time_step, c.time_step_reason.c_str());
-  text += format("steps            %.0f to the end time\n", c.steps);
-  text += format("scales           L %.4g m, H %.4g m, U %.4g m/s (%s)\n", c.width, c.depth, c.speed,
-                 c.speed_source.c_str());
-  for (const FluidNumbers& f : c.fluids)
-    text += format("fluid %-10s Reynolds %s, Bingham %s, N %s\n", f.name.c_str(), number(f.reynolds).c_str(),
-                   number(f.bingham).c_str(), number(f.dam).c_str());
-  text +=
-      "                 Reynolds = rho U L / eta, Bingham = tau_B L / (eta U), N = rho L sqrt(g H) / eta\n";
-  text += format("sound speed      %.4g m/s, Mach number %.3g\n", c.sound_speed, c.mach);
-  for (const std::string& line : c.sound_speeds) text += "                 " + line + "\n";
-  text += format("viscosity        corrected by %.4f for the bias of the operator at this support ratio\n",
-                 c.viscosity_correction);
-  text += "exits            " + c.exits + "\n";
-  text += format("memory           about %.3g MB\n", c.memory / 1e6);
-  text += format("run time         roughly %s on two CPU cores (%.2g particle-steps/s)\n",
-                 duration(c.run_time).c_str(), particle_steps_per_second);
-  if (c.exact_yield)
-    text += format(
-        "                 times %g for the exact yield stress, whose cost no one knows before: 2 to 15\n",
-        exact_yield_cost);
-  for (const std::string& warning : c.warnings) text += "warning: " + warning + "\n";
-  return text;
-}
-
-Json to_json(const CaseCheck& c) {
-  const auto lines = [](const std::vector<std::string>& all) {
-    Json::Array array;
-    for (const std::string& line : all) array.emplace_back(line);
-    return Json(std::move(array));
-  };
-  Json fluids = Json::object();
-  for (const FluidNumbers& f : c.fluids)
-    fluids.set(f.name, Json::object().set("reynolds", f.reynolds).set("bingham", f.bingham).set("n", f.dam));
-  Json result = Json::object();
-  result.set("fluid_particles", c.fluid_particles).set("wall_particles", c.wall_particles);
-  result.set("fed_particles", c.fed).set("spacing", c.spacing).set("support_radius", c.support_radius);
-  result.set("time_step", c.time_step).set("time_step_reason", c.time_step_reason).set("steps", c.steps);
-  result.set("depth", c.depth).set("width", c.width).set("speed", c.speed);
-  result.set("speed_source", c.speed_source).set("fluids", fluids);
-  result.set("sound_speed", c.sound_speed)
-      .set("mach", c.mach)
-      .set("sound_speed_terms", lines(c.sound_speeds));
-  result.set("viscosity_correction", c.viscosity_correction).set("exits", c.exits);
-  result.set("inlets", lines(c.inlets)).set("memory_bytes", c.memory).set("run_time", c.run_time);
-  return result.set("exact_yield", c.exact_yield).set("warnings", lines(c.warnings));
 }
 
 }  // namespace slagflow

@@ -42,12 +42,9 @@ void require_outputs(const std::string& folder, const RunRecord& run, const Case
   add(lack_of_table(folder + "/history.csv", run.history_bytes));
   add(lack_of_snapshots(folder + "/particles.vtkhdf", run.snapshots));
   if (c.output.walls && !c.walls.empty()) add(lack_of_snapshots(folder + "/walls.vtkhdf", run.snapshots));
-  std::size_t profile = 0;
-  for (const MeasureSpec& measure : c.measures) {
-    if (measure.type != MeasureType::profile || 2 * profile + 1 >= run.profiles.size()) continue;
-    add(lack_of_table(folder + "/" + profile_file(measure.name), run.profiles[2 * profile + 1]));
-    ++profile;
-  }
+  const std::vector<MeasureFile> files = measure_files(c);
+  for (std::size_t k = 0; k < files.size() && 2 * k + 1 < run.profiles.size(); ++k)
+    add(lack_of_table(folder + "/" + files[k].name, run.profiles[2 * k + 1]));
   if (lacks.empty()) return;
   throw InputError(
       lacks +

@@ -83,7 +83,7 @@ void clear_folder(const std::string& folder) {
       if (failed) throw Error("cannot remove " + folder + "/" + file + ": " + failed.message());
     }
   }
-  const std::regex profile("profile_.*\\.csv");
+  const std::regex profile("(profile|surface)_.*\\.csv");
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!std::regex_match(entry.path().filename().string(), profile)) continue;
     fs::remove(entry.path(), failed);

@@ -157,13 +157,13 @@ void Run::open_outputs() {
   if (!resumed_) {
     history_.emplace(history, columns);
     snapshots_.emplace(folder_, sizes, provenance_.attributes());
-    profiles_.emplace(built_.resolved, folder_);
+    profiles_.emplace(built_.resolved, built_.setup, folder_);
     return;
   }
   const RunRecord& run = resumed_->run;
   history_.emplace(history, columns, HistoryEnd{run.history_lines, run.history_bytes});
   snapshots_.emplace(folder_, sizes, PresentSnapshots(run.snapshots));
-  profiles_.emplace(built_.resolved, folder_, run.profiles);
+  profiles_.emplace(built_.resolved, built_.setup, folder_, run.profiles);
   snapshots_->describe(provenance_.attributes());  // another end time, perhaps
 }
 

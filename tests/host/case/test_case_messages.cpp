@@ -90,10 +90,12 @@ TEST(CaseMessages, AllKeysOfATableAreListedThoughItsTypeIsWrong) {
   const std::string text = replaced(tiny_case(), "type = \"front\"", "type = \"frond\"\ndirektion = 1");
   EXPECT_THAT(
       error_of(text),
-      AllOf(HasSubstr("did you mean 'front'?"),
-            HasSubstr("'measure.0.direktion': unknown: did you mean 'direction'? allowed: name, type, "
-                      "fraction, direction, position, lip, outward, bottom, min, max, start, end, "
-                      "points, wall, about")));
+      AllOf(
+          HasSubstr("did you mean 'front'?"),
+          HasSubstr(
+              "'measure.0.direktion': unknown: did you mean 'direction'? allowed: name, type, "
+              "fraction, direction, position, lip, outward, bottom, min, max, start, end, "
+              "points, rows, across, wall, about, center, normal, height, width, up, fluid, cell, outlet")));
 }
 
 TEST(CaseMessages, KeysThatAreWrittenOtherwiseAreGuessed) {

@@ -52,7 +52,8 @@ TEST(Cases, EveryFileLoadsBuildsAsItsCommentSaysAndWritesItselfBack) {
     const auto forces = std::count_if(c.measures.begin(), c.measures.end(),
                                       [](const MeasureSpec& m) { return m.type == MeasureType::force; });
     EXPECT_EQ(setup.fronts.size() + setup.planes.size() + setup.boxes.size() + setup.lines.size() +
-                  setup.levels.size() + static_cast<std::size_t>(forces),
+                  setup.levels.size() + setup.rectangles.size() + setup.surfaces.size() +
+                  setup.contacts.size() + setup.residences.size() + static_cast<std::size_t>(forces),
               c.measures.size());
   }
   EXPECT_GE(files, 10);

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "host/run/run.hpp"
@@ -93,6 +94,52 @@ TEST(RunOpenings, ResumedRunsGiveTheSameBits) {
   rest.until = 0.12;
   ASSERT_EQ(resume_run(rest).status, RunStatus::done);
   expect_same_results(folder / "whole", folder / "part");
+}
+
+const char* const probes = R"(
+[[measure]]
+name = "edge"
+type = "flux"
+center = [0.004, 0, 0.005]
+width = 0.02
+height = 0.02
+normal = [1, 0, 0]
+[[measure]]
+name = "puddle"
+type = "surface"
+start = [-0.003, 0, 0]
+end = [0.003, 0, 0]
+points = 4
+[[measure]]
+name = "floor"
+type = "contact"
+wall = "floor"
+[[measure]]
+name = "stay"
+type = "residence"
+outlet = "ladle"
+)";
+
+TEST(RunOpenings, ProbesGoOnAsIfTheRunHadNotStopped) {
+  const TempFolder folder;
+  const Case c = parse_case(std::string(poured) + probes, "poured.toml");
+  const RunOutcome outcome = run_case(c, into(folder / "whole"));
+  ASSERT_EQ(outcome.status, RunStatus::done);
+  RunOptions part = into(folder / "part");
+  part.until = 0.07;
+  ASSERT_EQ(run_case(c, part).status, RunStatus::done);
+  RunOptions rest = into(folder / "part");
+  rest.until = 0.12;
+  ASSERT_EQ(resume_run(rest).status, RunStatus::done);
+  expect_same_results(folder / "whole", folder / "part");
+  const std::string surface = read_text_file(folder / "whole/surface_puddle.csv");
+  EXPECT_EQ(surface, read_text_file(folder / "part/surface_puddle.csv"));
+  EXPECT_THAT(surface, testing::StartsWith("time_s,x_m,y_m,z_m,surface_m,height_m,thickness_m\n"));
+  EXPECT_EQ(std::count(surface.begin(), surface.end(), '\n'), 1 + 4 * 7);  // a header, 7 snapshots
+  for (const char* line :
+       {"edge (flux): forward ", "puddle (surface): ", "floor (contact): fluid on ", "stay (residence): "})
+    EXPECT_THAT(outcome.results, Contains(testing::StartsWith(line)));
+  EXPECT_THAT(outcome.results, Contains(HasSubstr("particles left through ladle after 0.0")));
 }
 
 // Nothing is there at the start, and nothing after all has left and no inlet feeds.
