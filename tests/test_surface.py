@@ -24,7 +24,9 @@ def tools_are_there():
     return PYTHON.exists() and subprocess.run(command, capture_output=True, check=False).returncode == 0
 
 
-class Surface(unittest.TestCase):
+class SurfaceCase(unittest.TestCase):
+    """Runs to draw, for the tests of surfaces and of reports."""
+
     def setUp(self):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
@@ -61,6 +63,8 @@ class Surface(unittest.TestCase):
         pixels = matplotlib.image.imread(picture)[:, :, :3]
         return pixels[np.ptp(pixels, axis=2) > 0.25]
 
+
+class Surface(SurfaceCase):
     def test_is_drawn_first_and_has_the_colours_of_the_scale(self):
         self.need_tools()
         folder = self.make_run()

@@ -68,16 +68,16 @@ class RunFolder:
         self.fluid = Snapshots(path / "particles.vtkhdf")
         walls = path / "walls.vtkhdf"
         self.walls = Snapshots(walls) if walls.is_file() else None
-        self._case = self._read_case()
-        self.spacing = self._case["resolution"]["spacing"]
+        self.case = self._read_case()
+        self.spacing = self.case["resolution"]["spacing"]
 
     @property
     def title(self):
-        return str(self._case.get("case", {}).get("name", self.path.name))
+        return str(self.case.get("case", {}).get("name", self.path.name))
 
     @property
     def dimensions(self):
-        return int(self._case["resolution"].get("dimensions", 3))
+        return int(self.case["resolution"].get("dimensions", 3))
 
     def summary(self):
         """What summary.json holds; empty where the run has not ended."""
@@ -89,7 +89,7 @@ class RunFolder:
     def fluids_in_words(self):
         """By name: density, rheology and its parameters as the case gives them, in SI units."""
         words = {}
-        for name, fluid in self._case.get("fluid", {}).items():
+        for name, fluid in self.case.get("fluid", {}).items():
             numbers = [f"{value:.4g} {UNITS[key]}" for key, value in fluid.items() if key in UNITS]
             words[name] = ", ".join([str(fluid.get("rheology", "")), *numbers]).strip(", ")
         return words
@@ -106,7 +106,7 @@ class RunFolder:
             else:
                 flat[key] = value
 
-        add(self._case, "")
+        add(self.case, "")
         return flat
 
     def nearest_steps(self, times):

@@ -85,16 +85,16 @@ QUANTITIES = tuple(UNITS)
 class Meshes:
     """Surfaces of a run's fluid and walls, in metres. Walls that do not change are meshed once."""
 
-    def __init__(self, run, quantity):
+    def __init__(self, run, quantity, cube=CUBE):
         self._splash, self.pyvista = tools()
-        self.run, self.quantity = run, quantity
+        self.run, self.quantity, self._cube = run, quantity, cube
         self._walls = (None, None)
 
     def _surface(self, positions, values, smoothings):
         origin = positions.mean(axis=0)  # single precision is used inside
         made, _ = self._splash.reconstruction_pipeline(
             np.ascontiguousarray(positions - origin), attributes_to_interpolate={"value": np.ascontiguousarray(values, float)},
-            particle_radius=RADIUS * self.run.spacing, smoothing_length=SMOOTHING, cube_size=CUBE,
+            particle_radius=RADIUS * self.run.spacing, smoothing_length=SMOOTHING, cube_size=self._cube,
             iso_surface_threshold=THRESHOLD, mesh_cleanup=True, decimate_barnacles=True, mesh_smoothing_iters=smoothings,
             compute_normals=True, normals_smoothing_iters=NORMALS)
         faces = np.asarray(made.mesh.triangles).astype(np.int64)
