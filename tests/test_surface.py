@@ -136,7 +136,13 @@ class Surface(SurfaceCase):
     def test_titles_are_the_keys_that_differ(self):
         runs = [RunFolder(self.make_run(f"run{k}", viscosity=k + 1.0)) for k in range(2)]
         self.assertEqual(surface.titles_of(runs), ["dynamic_viscosity = 1.0", "dynamic_viscosity = 2.0"])
-        self.assertEqual(surface.titles_of([runs[0], runs[0]]), ["run0", "run0"])
+        self.assertEqual([Path(t).name for t in surface.titles_of([runs[0], runs[0]])], ["run0", "run0"])
+
+    def test_fluids_that_runs_call_otherwise_have_all_names(self):
+        one, other = (RunFolder(self.make_run(name)) for name in ("one", "other"))
+        del one.case["fluid"]["slag"]
+        other.case["fluid"] = {"metal": {}, "slag": {}}
+        self.assertEqual(surface.fluid_names([one, other]), ["oil/metal", "slag"])
 
     def test_slow_speeds_are_in_centimetres_and_the_caption_tells_the_fluids(self):
         run = RunFolder(self.make_run(speed=0.2))

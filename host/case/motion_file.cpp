@@ -116,7 +116,20 @@ class MotionFile {
     if (!has_[time_column]) return line + "has no time with its unit" + allowed;
     if (!has_[x_column] && !has_[y_column] && !has_[z_column] && !has_[angle_column])
       return line + "has neither a displacement nor an angle with its unit" + allowed;
+    for (std::size_t k = 0; k < columns_.size(); ++k)
+      if (columns_[k].kind < 0 && has_numbers(k))
+        return line + "'" + records_[names_].fields[k] + "' is no motion with a unit that is known" +
+               allowed + "; other columns left out of the file";
     return "";
+  }
+
+  // Remarks have none.
+  bool has_numbers(std::size_t column) const {
+    return std::any_of(
+        records_.begin() + static_cast<std::ptrdiff_t>(first_row_), records_.end(), [&](const Record& r) {
+          return column < r.fields.size() && (number_of(r.fields[column], DecimalSign::point) ||
+                                              number_of(r.fields[column], DecimalSign::comma));
+        });
   }
 
   // From all numbers together: a comma is decimal unless one has a decimal point.

@@ -19,7 +19,8 @@
 namespace slagflow {
 namespace {
 
-constexpr double wall_gap = 0.25;          // [spacings] that fluid keeps from a wall at the start
+constexpr double wall_room = 0.25;         // [spacings] that fluid needs before a wall at the start
+constexpr double wall_gap = 0.02;          // [spacings] that fluid keeps from a wall at the start
 constexpr double off_lattice = 0.05;       // [spacings] that a face may lie beside its place
 constexpr std::size_t faces_told = 3;      // of a wall, that lie beside theirs; of more the number
 constexpr double bytes_per_particle = 89;  // position, normals, depths, index of a wall particle
@@ -158,13 +159,21 @@ class Filler {
     }
   }
 
-  // A site, or the place a quarter of a spacing off the wall that it is nearer to than that: a curved or
-  // inclined wall would otherwise lose the fluid of these sites. Nothing between two walls that leave no
-  // room.
+  // A site, or the place just off the wall that it lies on. Fluid that is moved by more leaves the lattice,
+  // and then never comes to rest in corners of walls whose faces go through sites. Nothing between two walls
+  // that leave no room for a place a quarter of a spacing off both.
   std::optional<Vec3d> off_walls(Vec3d p) const {
-    const double gap = wall_gap * lattice_.spacing(), lacking = gap - solids_.distance(p);
-    if (lacking <= 0) return p;
-    const double step = 1e-4 * lattice_.spacing();
+    const double distance = solids_.distance(p);
+    if (distance >= wall_room * lattice_.spacing()) return p;
+    const std::optional<Vec3d> roomy = moved_off(p, distance, wall_room);
+    return roomy && distance < wall_gap * lattice_.spacing() ? moved_off(p, distance, wall_gap)
+           : roomy                                           ? p
+                                                             : roomy;
+  }
+
+  // To a distance [spacings] off the nearest wall, where that is possible.
+  std::optional<Vec3d> moved_off(Vec3d p, double distance, double wanted) const {
+    const double step = 1e-4 * lattice_.spacing(), lacking = wanted * lattice_.spacing() - distance;
     Vec3d away;
     for (int k = 0; k < 3; ++k) {
       if (c_.dimensions == 2 && k == 1) continue;
@@ -174,7 +183,7 @@ class Filler {
     }
     if (!(norm(away) > 0)) return {};
     const Vec3d place = lattice_.wrapped(p + (lacking / norm(away)) * away);
-    if (solids_.distance(place) < 0.99 * gap || !lattice_.in_domain(place)) return {};
+    if (solids_.distance(place) < 0.99 * wanted * lattice_.spacing() || !lattice_.in_domain(place)) return {};
     return place;
   }
 
@@ -184,7 +193,7 @@ class Filler {
     if (c_.dimensions == 2) offset.y = 0;
     for (int tries = 0; tries < 20; ++tries, offset = 0.5 * offset) {
       const Vec3d p = lattice_.wrapped(site + offset);
-      if (lattice_.in_domain(p) && solids_.distance(p) >= wall_gap * lattice_.spacing()) return p;
+      if (lattice_.in_domain(p) && solids_.distance(p) >= wall_room * lattice_.spacing()) return p;
     }
     return site;
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ class Lattice {
   bool in_domain(Vec3d p) const;  // between the faces; along y always with two dimensions
   Vec3d wrapped(Vec3d p) const;   // brought back into the domain along periodic axes [m]
   bool periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
+  std::optional<SiteIndex> at(Vec3d place) const;  // the site that a place is in; nothing beyond the lattice
   // Moves along an axis, round a periodic one. Returns false when that leaves the lattice.
   bool move(SiteIndex& s, int axis, std::int64_t steps) const;
 
@@ -138,7 +140,7 @@ struct Filling {
 };
 
 // Places all particles of a case. Fluid sites are in a region, in no earlier region and in no wall, and moved
-// to a quarter of a spacing off walls that are nearer; wall sites are in a wall and see fluid sites within
+// to a fiftieth of a spacing off walls that are nearer; wall sites are in a wall and see fluid sites within
 // their layers. Throws InputError: a region without a site, too many particles, lack of memory.
 Filling fill(const Case& c);
 

@@ -115,6 +115,19 @@ Vec3d Lattice::wrapped(Vec3d p) const {
   return p;
 }
 
+std::optional<SiteIndex> Lattice::at(Vec3d place) const {
+  const Vec3d from = wrapped(place) - position({0, 0, 0});
+  SiteIndex s{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    if (count_[k] == 1 && !periodic(axis)) continue;  // the plane of two dimensions
+    s[k] = std::llround(from[axis] / spacing_);
+    if (periodic(axis) && s[k] == count_[k]) s[k] = 0;
+    if (s[k] < 0 || s[k] >= count_[k]) return {};
+  }
+  return s;
+}
+
 bool Lattice::move(SiteIndex& s, int axis, std::int64_t steps) const {
   const auto k = static_cast<std::size_t>(axis);
   s[k] += steps;

@@ -84,6 +84,9 @@ std::vector<Foot> WallFaces::feet_by_depth(Vec3d p, std::size_t body) const {
   const bool outside = solids_[body].distance(p) > 0;
   solids_[body].feet(outside ? p + tie * tie_direction : p, 2 * reach_, feet);
   if (feet.empty()) solids_[body].feet(p + tie * tie_direction, 2 * reach_, feet);
+  // Of forms that tell the nearest of their faces however far it is.
+  const auto far = [&](const Foot& f) { return dot(f.point - p, f.normal) > 2 * reach_; };
+  feet.erase(std::remove_if(feet.begin(), feet.end(), far), feet.end());
   const auto steps = [&](const Foot& f) { return std::round(dot(f.point - p, f.normal) / tie); };
   std::stable_sort(feet.begin(), feet.end(), [&](const Foot& a, const Foot& b) {
     const double difference = steps(a) - steps(b);
@@ -98,10 +101,13 @@ WallFace WallFaces::of(Vec3d p, std::size_t body, Vec3d open) const {
   const auto depth = [&](const Foot& f) { return dot(f.point - p, f.normal); };
   auto chosen = std::find_if(feet.begin(), feet.end(),
                              [&](const Foot& f) { return depth(f) <= limit && borders_open(f, body); });
-  // A face on which two parts of a wall touch does not count: the open must lie beyond its plane.
-  if (chosen == feet.end())
-    chosen = std::find_if(feet.begin(), feet.end(),
-                          [&](const Foot& f) { return dot(open - f.point, f.normal) > 0; });
+  // A face on which two parts of a wall touch does not count: the open must lie beyond its plane, or on it
+  // where no other face fits, as a site of the lattice may.
+  const double tie = 1e-6 * spacing_;
+  for (const double beyond : {tie, -tie})
+    if (chosen == feet.end())
+      chosen = std::find_if(feet.begin(), feet.end(),
+                            [&](const Foot& f) { return dot(open - f.point, f.normal) > beyond; });
   if (chosen == feet.end())
     chosen = std::find_if(feet.begin(), feet.end(), [&](const Foot& f) { return borders_open(f, body); });
   WallFace face = chosen != feet.end()

@@ -1,11 +1,10 @@
 #include "host/geometry/measure_setup.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <set>
 
 #include "host/geometry/inlet_face.hpp"
+#include "host/geometry/site_areas.hpp"
 
 namespace slagflow {
 namespace {
@@ -75,61 +74,11 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
   }
 }
 
-using Site = std::array<std::int64_t, 3>;
-
-Site site_of(const Case& c, Vec3d place) {
-  Site site{};
-  for (int k = 0; k < 3; ++k)
-    site[static_cast<std::size_t>(k)] = std::llround((place[k] - c.origin[k]) / c.spacing - 0.5);
-  return site;
-}
-
-bool in_domain(const Case& c, Vec3d p) {
-  for (int k = 0; k < 3; ++k)
-    if (!(k == 1 && c.dimensions == 2) && !(p[k] >= c.domain.lower[k] && p[k] <= c.domain.upper[k]))
-      return false;
-  return true;
-}
-
-// Open faces of a cell as they look along the normal; none where it has none that way. Where the normal is
-// along an axis, an open face across it is that of an edge, and counts as a whole.
-double faces_of(const Case& c, const Site& own, Vec3d normal, const std::set<Site>& taken) {
-  constexpr double level = 1e-6;
-  double ahead = 0, across = 0;
-  for (int k = 0; k < 3; ++k) {
-    if (k == 1 && c.dimensions == 2) continue;
-    for (const int way : {-1, 1}) {
-      Site beside = own;
-      beside[static_cast<std::size_t>(k)] += way;
-      const double looks = way * normal[k];
-      if (looks < -level || taken.count(beside) > 0) continue;
-      looks > level ? ahead += looks : across += 1;
-    }
-  }
-  return ahead > 1 - level ? ahead + across : ahead;
-}
-
 }  // namespace
 
 void add_measures(const Case& c, SimulationSetup& setup) {
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
   if (!setup.contacts.empty()) setup.site_area = site_areas(c, setup, setup.contacts);
-}
-
-std::vector<double> site_areas(const Case& c, const SimulationSetup& setup,
-                               const std::vector<std::size_t>& bodies) {
-  const WallParticles& walls = setup.walls;
-  std::set<Site> taken;
-  for (const Vec3d& place : walls.position) taken.insert(site_of(c, place));
-  const double face = std::pow(c.spacing, c.dimensions - 1);
-  std::vector<double> area(walls.position.size());
-  for (std::size_t w = 0; w < area.size(); ++w) {
-    if (std::find(bodies.begin(), bodies.end(), walls.body[w]) == bodies.end()) continue;
-    if (!(walls.depth[w] > 0 && walls.depth[w] < c.spacing)) continue;
-    if (!in_domain(c, walls.position[w] + walls.depth[w] * walls.normal[w])) continue;
-    area[w] = face * faces_of(c, site_of(c, walls.position[w]), walls.normal[w], taken);
-  }
-  return area;
 }
 
 }  // namespace slagflow

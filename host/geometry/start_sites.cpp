@@ -24,16 +24,9 @@ std::optional<std::size_t> StartSites::beside(std::size_t site, int axis, std::i
 }
 
 std::optional<std::size_t> StartSites::at(Vec3d place) const {
-  const Vec3d from = lattice_.wrapped(place) - lattice_.position({0, 0, 0});
-  SiteIndex s{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<std::size_t>(axis);
-    if (lattice_.count()[k] == 1 && !lattice_.periodic(axis)) continue;  // the plane of two dimensions
-    s[k] = std::llround(from[axis] / lattice_.spacing());
-    if (lattice_.periodic(axis) && s[k] == lattice_.count()[k]) s[k] = 0;
-    if (s[k] < 0 || s[k] >= lattice_.count()[k]) return {};
-  }
-  return lattice_.linear(s);
+  const std::optional<SiteIndex> s = lattice_.at(place);
+  if (!s) return {};
+  return lattice_.linear(*s);
 }
 
 }  // namespace slagflow

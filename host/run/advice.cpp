@@ -102,8 +102,6 @@ class Adviser {
     if (built_.setup.numerics.viscous_step == ViscousStepping::explicit_step)
       lines_.emplace_back("numerics.viscous_step = \"implicit\": steps that viscosity does not shorten");
     advise_of_sound_speed();
-    if (built_.setup.dimensions == 3)
-      lines_.emplace_back("resolution.dimensions = 2: a first look at a section, in minutes");
     lines_.push_back(format("output.end_time = %.3g: an hour of it",
                             rounded_down(built_.resolved.output.last_time() * long_time / check_.run_time)));
   }

@@ -1,5 +1,6 @@
 #include "host/run/run.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -96,6 +97,9 @@ RunOutcome run_from(const StartRequest& request, const RunOptions& options) {
                             request.overrides)
                : load_case(request.file, request.overrides);
   end_with_end_time(request.overrides, c);
+  const auto sets_until = [](const std::string& set) { return set.rfind("output.until=", 0) == 0; };
+  if (request.file.empty() && std::none_of(request.overrides.begin(), request.overrides.end(), sets_until))
+    c.output.until = 0;  // where the other run was told to end is not this one's end
   std::error_code failed;
   const std::string folder = run_folder(c, options);
   if (std::filesystem::equivalent(folder, start.checkpoint.text("from_folder"), failed))

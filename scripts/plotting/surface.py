@@ -233,9 +233,12 @@ def figure_of(runs, steps, pictures, quantity, path):
             axes.axis("off")
             time = f"t = {run.fluid.times[steps[k][row]]:.3g} s"
             axes.set_title(f"{titles[k]}, {time}" if len(runs) > 1 else time, loc="left", fontsize=9, pad=2)
-    figure.suptitle(runs[0].title.replace("_", " "), fontsize=12, y=1 - 0.18 / total[1], va="center")
-    colour_key(figure, runs[0], quantity, total)
-    words = textwrap.fill(caption(runs[0]), int(17 * total[0]))
+    names = list(dict.fromkeys(run.title for run in runs))
+    title = textwrap.shorten(", ".join(names).replace("_", " "), int(9 * total[0]), placeholder=" …")
+    figure.suptitle(title, fontsize=12, y=1 - 0.18 / total[1], va="center")
+    colour_key(figure, runs, quantity, total)
+    captions = [caption(run) for run in runs]
+    words = textwrap.fill(captions[0] if len(set(captions)) == 1 else "fluids and spacings differ", int(17 * total[0]))
     figure.text(0.5, 0.5 * FOOT / total[1], words, ha="center", va="center", fontsize=7.5, color="0.35", linespacing=1.4)
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
@@ -249,14 +252,21 @@ def titles_of(runs):
     given = [name for name in flat[0] if not name.startswith(("case.", "output.", "limits.", "numerics.sound_speed"))]
     names = [name for name in given if len({repr(f.get(name)) for f in flat}) > 1]
     if not names or len(names) > 3:
-        return [run.path.name for run in runs]
+        several = len({run.path.name for run in runs}) < len(runs)
+        return [f"{run.path.parent.name}/{run.path.name}" if several else run.path.name for run in runs]
     return [textwrap.shorten(", ".join(f"{name.split('.')[-1]} = {f.get(name)}" for name in names), 60) for f in flat]
 
 
-def colour_key(figure, run, quantity, total):
+def fluid_names(runs):
+    """By number; where runs call it otherwise, all names."""
+    lists = [list(run.fluids_in_words()) for run in runs]
+    return ["/".join(dict.fromkeys(names[k] for names in lists if k < len(names))) for k in range(max(map(len, lists)))]
+
+
+def colour_key(figure, runs, quantity, total):
     """A colour bar, or the names of what there are few of."""
     if quantity.few:
-        names = list(run.fluids_in_words()) if quantity.name == "fluid" else ["rigid", "flowing"]
+        names = fluid_names(runs) if quantity.name == "fluid" else ["rigid", "flowing"]
         marks = [plt.Line2D([], [], marker="s", linestyle="", color=quantity.map(k % quantity.map.N), label=name, markersize=7)
                  for k, name in enumerate(names)]
         figure.legend(handles=marks, loc="center", bbox_to_anchor=(0.5, 1 - 0.5 / total[1]), ncol=len(marks), frameon=False, fontsize=8)

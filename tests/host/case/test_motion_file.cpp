@@ -37,6 +37,12 @@ TEST(MotionFile, IsReadWithItsUnits) {
   EXPECT_NEAR(r.motion.angle[1], std::acos(-1.0) / 2, 1e-12);
 }
 
+TEST(MotionFile, RefusesNumbersThatItDoesNotUnderstand) {
+  for (const std::string name : {"Winkel [gon]", "Kippwinkel [deg]", "angle", "y [inch]", "Hub [mm]"})
+    EXPECT_THAT(read("time_s;x_mm;" + name + "\n0;0;0\n1;5;10\n").fault,
+                HasSubstr("line 1: '" + name + "' is no motion with a unit that is known: allowed: "));
+}
+
 TEST(MotionFile, OtherEditorsWriteItOtherwise) {
   const Read r = read("\xEF\xBB\xBF\"Time [s]\";\"Angle (deg)\"\r\n0;0\r\n\r\n1,5;90\r\n");
   EXPECT_EQ(r.fault, "");

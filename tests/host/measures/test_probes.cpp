@@ -102,21 +102,34 @@ TEST(ContactMeasure, TellsTheShareOfATankAndItsPressure) {
   expect_restored(m);
 }
 
-// A plate, level and tilted: its faces and rims, of which tilted ones lose up to a spacing at each edge.
+// A wall alone in the box of 0.2 m with a little fluid; [m^2] of its surface, [m] with two dimensions.
+double surface_of(const std::string& shape, const std::string& resolution) {
+  std::string text = tank_of(shape, measure("type = \"contact\"\nwall = \"tank\"\n"), resolution);
+  const std::size_t region = text.find("[[region]]");
+  text.replace(region, text.find("[[wall]]") - region,
+               "[[region]]\nshapes = [{shape=\"sphere\", center=[0.01,0.01,0.01], radius=0.02}]\n");
+  const SimulationSetup s = build_setup(parse_case(text, "plate.toml")).setup;
+  double area = 0;
+  for (const double site : s.site_area) area += site;
+  return area;
+}
+
 TEST(SiteAreas, AreThoseOfPlatesAtAnyAngle) {
   for (const double angle : {0.0, 0.1745, 0.5236, 0.7854, 1.2}) {
-    const std::string plate = R"({shape="box", min=[0.05, -1, 0.06], max=[0.25, 1, 0.12], rotate=[0,)" +
-                              std::to_string(angle) + ",0], rotate_about=[0.15, 0, 0.09]}";
-    std::string text = tank_of(plate, measure("type = \"contact\"\nwall = \"tank\"\n"), "dimensions = 2\n");
-    text.replace(text.find("[[region]]"), 0,
-                 "[[region]]\nshapes = [{shape=\"sphere\", center=[0,0,0], radius=0.02}]\n");
-    const std::size_t second = text.find("[[region]]", text.find("[[region]]") + 1);
-    text.erase(second, text.find("[[wall]]") - second);
-    const SimulationSetup s = build_setup(parse_case(text, "plate.toml")).setup;
-    double area = 0;
-    for (const double site : s.site_area) area += site;
-    EXPECT_NEAR(area, 2 * (0.2 + 0.06), angle == 0 ? 1e-9 : 0.1 * 0.52) << angle;
+    const std::string plate = R"({shape="box", min=[0.05, -1, 0.06], max=[0.15, 1, 0.12], rotate=[0,)" +
+                              std::to_string(angle) + ",0], rotate_about=[0.1, 0, 0.09]}";
+    const double area = 2 * (0.1 + 0.06);
+    EXPECT_NEAR(surface_of(plate, "dimensions = 2\n"), area, angle == 0 ? 1e-9 : 0.01 * area) << angle;
   }
+}
+
+TEST(SiteAreas, AreThoseOfRoundBodies) {
+  constexpr double pi = 3.14159265358979323846;
+  const double disc = surface_of(R"({shape="cylinder", start=[0.1,-1,0.1], end=[0.1,1,0.1], radius=0.05})",
+                                 "dimensions = 2\n");
+  EXPECT_NEAR(disc, 2 * pi * 0.05, 0.01 * disc);
+  const double sphere = surface_of(R"({shape="sphere", center=[0.1,0.05,0.1], radius=0.045})", "");
+  EXPECT_NEAR(sphere, 4 * pi * 0.045 * 0.045, 0.01 * sphere);
 }
 
 TEST(SurfaceMeasure, TellsTheHeightOverAGrid) {

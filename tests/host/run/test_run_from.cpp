@@ -112,6 +112,12 @@ TEST_F(RunFrom, GoesOnToTheBitsOfOneThatWasNotBroken) {
   EXPECT_THROW(resume_run(o), InputError);
 }
 
+// That one was told to end at 0.006 s.
+TEST_F(RunFrom, EndsWithItsCaseNotWhereTheOtherRunWasToldTo) {
+  EXPECT_EQ(from("old", {}).exit_code(), 0);
+  EXPECT_THAT(file("new/case.toml"), HasSubstr("until = \"end_time\""));
+}
+
 TEST_F(RunFrom, TakesTheNearestStateAndRefusesTimesThatAreNotThere) {
   const StartState newest = find_state(folder_ / "old"), same = find_state((folder_ / "old") + "@0.0062");
   EXPECT_EQ(newest.checkpoint.text("from_file"), "checkpoint.h5");
@@ -161,7 +167,7 @@ TEST_F(RunFrom, RefusesWhatTheStateCannotHold) {
               HasSubstr("particles of the state are outside of the domain"));
   EXPECT_THAT(refusal("old", {on_[0], "wall.0.motion={type=\"constant\", velocity=[0,0,1]}"}),
               HasSubstr("deeper than half a spacing in walls"));
-  EXPECT_THAT(refusal("old", {}), HasSubstr("key 'output.end_time'"));
+  EXPECT_THAT(refusal("old", {"output.end_time=0.006"}), HasSubstr("key 'output.end_time'"));
   EXPECT_THAT(refusal("old", {"output.end_time=0.005"}), HasSubstr("its clock goes on"));
   std::ofstream(folder_ / "renamed.toml") << [] {
     std::string t = tiny_case("0.012");
