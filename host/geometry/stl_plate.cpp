@@ -27,6 +27,7 @@ class Plate {
       if (triangles_there.size() > 2)
         refuse(corners, "has an edge of " + std::to_string(triangles_there.size()) + " triangles",
                "one or two, as surfaces have");
+    require_whole_edges();
     turn_alike();
   }
 
@@ -56,6 +57,31 @@ class Plate {
     for (std::size_t c = 0; c < 3; ++c)
       if (surface_.corners[t][c] == e.first && surface_.corners[t][(c + 1) % 3] == e.second) return true;
     return false;
+  }
+
+  // Where a corner lies on the edge of another triangle, the parts on both sides would get a gap behind it.
+  void require_whole_edges() const {
+    std::map<std::size_t, Vec3d> place;
+    std::vector<Edge> rim;
+    for (std::size_t t = 0; t < surface_.corners.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c) place[surface_.corners[t][c]] = surface_.triangles[t][c];
+    std::map<std::size_t, Vec3d> on_rim;
+    for (const auto& [corners, triangles_there] : sides_) {
+      if (triangles_there.size() != 1) continue;
+      rim.push_back(corners);
+      for (const std::size_t k : {corners.first, corners.second}) on_rim[k] = place[k];
+    }
+    for (const Edge& e : rim) {
+      const Vec3d a = place[e.first], along = place[e.second] - a;
+      const double length = norm(along), near = 2 * surface_.tolerance;
+      for (const auto& [k, p] : on_rim) {
+        const double at = dot(p - a, along) / length;
+        if (at <= near || at >= length - near || norm(p - a - (at / length) * along) > near) continue;
+        refuse(
+            e, "has a corner at " + corner_text(p) + " m in the middle of an edge",
+            "triangles that meet corner to corner; the exporter splits edges when its parts are one surface");
+      }
+    }
   }
 
   void turn_alike() {

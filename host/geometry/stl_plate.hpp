@@ -13,7 +13,7 @@ namespace slagflow {
 // do not look. Each face keeps its distance from its copy, also where faces meet at an angle; the rim is
 // closed. Triangles that do not agree with the first of their part which side is the front are turned.
 // Returns a closed surface. Throws InputError, `name` standing for the surface, at an edge of more than two
-// triangles, and where parts cannot be turned to agree.
+// triangles, at a corner on an edge of others, and where parts cannot be turned to agree.
 std::vector<Triangle> plate(const std::vector<Triangle>& surface, double thickness, PlateSide side,
                             const std::string& name);
 

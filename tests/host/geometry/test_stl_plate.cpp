@@ -137,6 +137,15 @@ TEST(StlPlate, RefusesThreeTrianglesAtAnEdge) {
   EXPECT_THAT(refusal(fin), testing::HasSubstr("shell.stl: the surface has an edge of 3 triangles, from ("));
 }
 
+// Two quads stand on the edge of the sheet, which is one triangle's.
+TEST(StlPlate, RefusesCornersOnAnEdge) {
+  Triangles split = sheet();
+  add_face(split, {0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1});
+  add_face(split, {1, 1, 0}, {2, 1, 0}, {2, 1, 1}, {1, 1, 1});
+  EXPECT_THAT(refusal(split),
+              testing::HasSubstr("has a corner at (1, 1, 0) m in the middle of an edge, from ("));
+}
+
 // A band of five quads, the last of which is glued upside down to the first.
 TEST(StlPlate, RefusesASurfaceWithOneSide) {
   constexpr int quads = 5;
