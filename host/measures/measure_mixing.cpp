@@ -61,7 +61,7 @@ Json MixingMeasure::summary() const {
 }
 
 std::string MixingMeasure::line() const {
-  if (std::isnan(now_.share)) return "no fluid in its box";
+  if (std::isnan(now_.share)) return format("no cell of %.3g m in its box is a quarter full", cell_);
   if (std::isnan(now_.index)) return format("nothing that mixes: %.3g %% is ", 100 * now_.share) + fluid_;
   return format("index %.3g of ", now_.index) + fluid_ +
          format(", %.3g %% of the fluid in its box", 100 * now_.share);

@@ -113,5 +113,13 @@ TEST(Init, RefusesWhatCannotBe) {
   EXPECT_THAT(refused(options), HasSubstr("cannot be written"));
 }
 
+TEST(Init, RefusesASpacingThatLeavesNoParticle) {
+  const TempFolder folder;
+  InitOptions options;
+  options.given = "dam", options.output = folder / "a.toml", options.spacing = 5;
+  EXPECT_THROW(init(options), InputError);
+  EXPECT_FALSE(std::filesystem::exists(options.output));
+}
+
 }  // namespace
 }  // namespace slagflow
