@@ -75,9 +75,9 @@ std::string far_corner(const std::vector<Triangle>& triangles) {
 
 }  // namespace
 
-std::string corner_text(Vec3d v) {
+std::string corner_text(Vec3d corner) {
   char text[100];
-  std::snprintf(text, sizeof text, "(%.7g, %.7g, %.7g)", v.x, v.y, v.z);
+  std::snprintf(text, sizeof text, "(%.7g, %.7g, %.7g)", corner.x, corner.y, corner.z);
   return text;
 }
 
