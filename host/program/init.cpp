@@ -140,7 +140,7 @@ std::string init_case(const InitOptions& options, std::istream& in, std::ostream
   if (asks) values = ask_values(in, out, values);
   const std::string path = options.output.empty() ? name + ".toml" : options.output;
   const std::string text = case_text(chosen, values, name_of(path));
-  const Case c = parse_case(text, path);  // refuses values that are out of range
+  const Case c = parse_case(text, path);                       // refuses values that are out of range
   if (values.spacing > chosen.values.spacing) build_setup(c);  // and spacings that leave no particle
   write_new(path, text);
   return "wrote " + path + ": " + chosen.what + "\nnext: slagflow check " + path + ", then slagflow run " +
