@@ -16,7 +16,7 @@ end: 100.0 %  t 0.1 s
 oil (front): arrived after 0.05 s
 warning: a <b>bold</b> warning
 no particle left the domain
-results in /tmp/x
+results in runs/x
 """
 
 

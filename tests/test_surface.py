@@ -125,7 +125,7 @@ class Surface(SurfaceCase):
                 mock.patch("sys.stderr") as errors:
             self.assertEqual(PLOT.main(), 0)
         told = "".join(str(call.args[0]) for call in errors.write.call_args_list)
-        self.assertIn("surface.png is not drawn: `scripts/install --pictures` brings what draws surfaces", told)
+        self.assertIn("surface.png is not drawn: `scripts/install --pictures` brings what draws surfaces and makes reports", told)
         self.assertTrue((folder / "pictures/flow.png").is_file())
 
     def test_compare_needs_two_runs(self):

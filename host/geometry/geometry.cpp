@@ -165,22 +165,15 @@ class Filler {
   std::optional<Vec3d> off_walls(Vec3d p) const {
     const double distance = solids_.distance(p);
     if (distance >= wall_room * lattice_.spacing()) return p;
-    const std::optional<Vec3d> roomy = moved_off(p, distance, wall_room);
-    return roomy && distance < wall_gap * lattice_.spacing() ? moved_off(p, distance, wall_gap)
-           : roomy                                           ? p
-                                                             : roomy;
+    if (!moved_off(p, distance, wall_room)) return {};
+    return distance < wall_gap * lattice_.spacing() ? moved_off(p, distance, wall_gap) : p;
   }
 
   // To a distance [spacings] off the nearest wall, where that is possible.
   std::optional<Vec3d> moved_off(Vec3d p, double distance, double wanted) const {
-    const double step = 1e-4 * lattice_.spacing(), lacking = wanted * lattice_.spacing() - distance;
-    Vec3d away;
-    for (int k = 0; k < 3; ++k) {
-      if (c_.dimensions == 2 && k == 1) continue;
-      Vec3d ahead = p, behind = p;
-      ahead[k] += step, behind[k] -= step;
-      away[k] = solids_.distance(ahead) - solids_.distance(behind);
-    }
+    const double lacking = wanted * lattice_.spacing() - distance;
+    const Vec3d away = away_from([this](Vec3d q) { return solids_.distance(q); }, p,
+                                 1e-4 * lattice_.spacing(), c_.dimensions == 2);
     if (!(norm(away) > 0)) return {};
     const Vec3d place = lattice_.wrapped(p + (lacking / norm(away)) * away);
     if (solids_.distance(place) < 0.99 * wanted * lattice_.spacing() || !lattice_.in_domain(place)) return {};

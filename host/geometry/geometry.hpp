@@ -62,6 +62,10 @@ class Lattice {
   SiteIndex first_{}, count_{}, inner_first_{}, inner_last_{};  // inner: relative to first_, last excluded
 };
 
+// Gradient of a distance by central differences over `step` [m]; not divided by 2 step, since only its
+// direction is asked for. With two dimensions nothing along y.
+Vec3d away_from(const Lattice::Distance& distance, Vec3d p, double step, bool flat);
+
 // The solid of a region or wall; `key` names it in messages. Throws InputError on a bad STL file.
 Solid make_solid(const Case& c, const std::vector<ShapeSpec>& shapes, const std::vector<ShapeSpec>& subtract,
                  const std::string& key);

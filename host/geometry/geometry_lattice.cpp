@@ -160,4 +160,15 @@ void Lattice::visit_block(const SiteIndex& first, const Distance& distance, cons
       }
 }
 
+Vec3d away_from(const Lattice::Distance& distance, Vec3d p, double step, bool flat) {
+  Vec3d away;
+  for (int k = 0; k < 3; ++k) {
+    if (flat && k == 1) continue;
+    Vec3d ahead = p, behind = p;
+    ahead[k] += step, behind[k] -= step;
+    away[k] = distance(ahead) - distance(behind);
+  }
+  return away;
+}
+
 }  // namespace slagflow

@@ -103,13 +103,7 @@ class Areas {
   // Whether the surface nearest to a place is in the domain and in no other wall.
   bool open_beyond(Vec3d p, double distance, std::size_t body) const {
     const double step = 1e-3 * c_.spacing;
-    Vec3d out;
-    for (int k = 0; k < 3; ++k) {
-      if (k == 1 && flat_) continue;
-      Vec3d ahead = p, behind = p;
-      ahead[k] += step, behind[k] -= step;
-      out[k] = solids_[body].distance(ahead) - solids_[body].distance(behind);
-    }
+    const Vec3d out = away_from([&](Vec3d q) { return solids_[body].distance(q); }, p, step, flat_);
     if (!(norm(out) > 0)) return false;
     const Vec3d foot = p + ((2 * step - distance) / norm(out)) * out;
     return in_domain(lattice_.wrapped(foot)) && solids_.distance_to_company(foot, body) > 0;
