@@ -199,7 +199,8 @@ std::vector<FluidConstants> fluid_constants(const SimulationSetup& s) {
   std::vector<FluidConstants> result;
   for (std::size_t kind = 0; kind < s.fluids.size(); ++kind)
     result.push_back({static_cast<Real>(s.fluids[kind].rest_density),
-                      static_cast<Real>(particle_mass(s, kind)), s.fluids[kind].rheology});
+                      static_cast<Real>(particle_mass(s, kind)), s.fluids[kind].rheology,
+                      s.thermal.on ? static_cast<Real>(s.fluids[kind].material.max_viscosity) : Real(1e30)});
   return result;
 }
 

@@ -38,6 +38,7 @@ struct InletSetup {
   FeedRate rate;
   std::vector<Vec3d> origin;  // [m] where a column goes through the face
   std::vector<double> share;  // of each column: its speed over the mean
+  double temperature = 0;     // [K], where heat is on
 };
 
 // Takes away the fluid that comes into a box.

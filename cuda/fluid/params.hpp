@@ -54,6 +54,7 @@ struct FluidConstants {
   Real rest_density;  // [kg/m^3]
   Real mass;          // of a particle [kg]
   Rheology rheology;
+  Real max_viscosity = Real(1e30);  // [Pa s]; less where heat is on
 
   // Of a particle whose density is above that of rest by `excess`. `packing`: its density at the start over
   // that at rest, as the lattice of the start has one volume whatever the pressure. Thin fluid takes at most

@@ -69,8 +69,8 @@ class ParticleArrays {
  private:
   template <class T>
   friend class ParticleArray;
-  using Any = std::variant<ParticleArray<Vec3d>*, ParticleArray<Quad>*, ParticleArray<Real>*,
-                           ParticleArray<Index>*, ParticleArray<std::uint8_t>*>;
+  using Any = std::variant<ParticleArray<Vec3d>*, ParticleArray<Quad>*, ParticleArray<double>*,
+                           ParticleArray<float>*, ParticleArray<Index>*, ParticleArray<std::uint8_t>*>;
   std::vector<Any> list_;
   Index capacity_ = 0;
 };

@@ -38,6 +38,20 @@ struct FluidArrays : ParticleArrays {
   ParticleArray<Real> shear_rate{*this, {"shear_rate", "1/s", "shear rate", kept | Fate::shown}};
   ParticleArray<Real> contact{
       *this, {"contact", "Pa", "the least pressure towards walls (walls/contact.hpp)", Fate::set_anew}};
+  // Empty where heat is off:
+  ParticleArray<double> enthalpy{
+      *this, {"enthalpy", "J/kg", "specific enthalpy above that at 298.15 K", kept | Fate::optional}};
+  ParticleArray<Quad> heat{*this,
+                           {"heat", "K, W/m, W/(m K), 1",
+                            "temperature less that of reference, conduction potential, conductivity, solid "
+                            "fraction; they follow from the enthalpy",
+                            kept | Fate::shown | Fate::optional}};
+  ParticleArray<Quad> melt{
+      *this,
+      {"melt", "Pa s, Pa, 1, Pa s",
+       "of the rheology the first parameter and the yield stress, which follow from the enthalpy, 1 in solid "
+       "fluid; the viscosity without the yield stress's part",
+       kept | Fate::shown | Fate::optional}};
 };
 
 // Wall particles, sorted by cell. Where they are follows from the time.
@@ -74,6 +88,7 @@ struct FluidView {
   Span<const Quad> place, motion, by_pressure, state;
   Span<const Real> pressure, contact, hollow;
   Span<const std::uint8_t> fluid;
+  Span<const Quad> melt;  // empty where heat is off
 };
 
 struct WallView {
@@ -85,7 +100,7 @@ struct WallView {
 
 inline FluidView view(const FluidArrays& f) {
   return {f.count,           f.place.span(),   f.motion.span(), f.by_pressure.span(), f.state.span(),
-          f.pressure.span(), f.contact.span(), f.hollow.span(), f.fluid.span()};
+          f.pressure.span(), f.contact.span(), f.hollow.span(), f.fluid.span(),       f.melt.span()};
 }
 
 inline WallView view(const WallArrays& w) {

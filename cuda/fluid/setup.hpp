@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "fluid/material.hpp"
 #include "fluid/math.hpp"
 #include "fluid/models.hpp"
 #include "fluid/motion.hpp"
 #include "fluid/openings.hpp"
 #include "fluid/smoothing/smoothing.hpp"
+#include "fluid/thermal.hpp"
 
 namespace slagflow {
 
@@ -19,6 +21,7 @@ struct FluidSetup {
   double rest_density = 0;  // [kg/m^3]
   Rheology rheology;
   double surface_tension = 0;  // [N/m]
+  MaterialSetup material{};    // where heat is on
 };
 
 // What fluid remembers that comes from the state of another simulation; see particles.hpp. One entry per
@@ -29,15 +32,17 @@ struct FluidMemory {
   std::vector<Real> packing;      // density at its first start over that at rest
   std::vector<Vec3> by_pressure;  // [N/m^3]
   std::vector<Index> id;          // ascending
+  std::vector<double> enthalpy;   // [J/kg], where heat is on and was on there; or empty
 };
 
 // One entry per fluid particle in each array.
 struct FluidParticles {
-  std::vector<Vec3d> position;      // [m]
-  std::vector<Vec3d> velocity;      // [m/s]
-  std::vector<double> pressure;     // [Pa], sets the initial density through the equation of state
-  std::vector<std::uint8_t> fluid;  // index into SimulationSetup::fluids
-  FluidMemory memory{};             // its density goes before the pressure
+  std::vector<Vec3d> position;        // [m]
+  std::vector<Vec3d> velocity;        // [m/s]
+  std::vector<double> pressure;       // [Pa], sets the initial density through the equation of state
+  std::vector<std::uint8_t> fluid;    // index into SimulationSetup::fluids
+  FluidMemory memory{};               // its density goes before the pressure
+  std::vector<double> temperature{};  // [K]; empty where heat is off
 };
 
 // Wall ('dummy') particles behind the surface. One entry per wall particle in each array.
@@ -72,6 +77,7 @@ struct WallBody {
   // Of the material, along the surface; the shape stays where it is, as in belts and turning cylinders.
   RigidVelocity surface{};
   WallMotion motion{};
+  WallThermal thermal{};
 };
 
 enum class Departure { remove, stop };  // what happens to a particle that leaves through a face
@@ -163,6 +169,12 @@ struct BoxSetup {
   Vec3d lower, upper;  // [m]
 };
 
+// A box in which particles are counted whose solid fraction is not below this.
+struct SolidSetup {
+  BoxSetup box;
+  double fraction = 0.5;
+};
+
 // A line along which the fluid is measured.
 struct LineSetup {
   Vec3d start, end;  // [m]
@@ -197,6 +209,7 @@ struct SimulationSetup {
   DomainSetup domain;
   NumericsSetup numerics;
   LimitSetup limits;
+  ThermalSetup thermal;
   double start_time = 0;  // [s] of the clock by which walls move
   double last_step = 0;   // [s] that the step before the start took: velocities are half of it behind
   // [s], 0: none. The steps before it are cut so that one ends there; going on beyond it is allowed.
@@ -204,12 +217,14 @@ struct SimulationSetup {
   std::vector<FrontSetup> fronts;
   std::vector<FrontSetup> planes;  // through which the flow is measured, along their sign
   std::vector<BoxSetup> boxes;
+  std::vector<SolidSetup> solids;
   std::vector<LineSetup> lines;
   std::vector<LineSetup> levels;  // on which the surface is looked for
   std::vector<RectangleSetup> rectangles;
   std::vector<SurfaceSetup> surfaces;
   std::vector<std::size_t> contacts;    // bodies whose contact with fluid is measured
-  std::vector<double> site_area;        // [m^2] of each wall particle's share of such a surface; or empty
+  std::vector<double> site_area;        // [m^2] of each wall particle's share of such a surface, and of those
+                                        // of walls that heat passes; or empty
   std::vector<std::size_t> residences;  // outlets at which the ages of particles are measured
   bool measure_walls = false;           // the forces on walls; they are known without it where walls move
   bool time_parts = false;  // times each part of a step: a CUDA build launches it kernel by kernel

@@ -105,8 +105,9 @@ Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic
       outlets_(c, "outlets"),
       exit_(c, "exits"),
       flag_(c, "exit flags"),
-      spare_(Buffer<Vec3d>(c, "sort spare"), Buffer<Quad>(c, "sort spare"), Buffer<Real>(c, "sort spare"),
-             Buffer<Index>(c, "sort spare"), Buffer<std::uint8_t>(c, "sort spare")) {}
+      spare_(Buffer<Vec3d>(c, "sort spare"), Buffer<Quad>(c, "sort spare"), Buffer<double>(c, "sort spare"),
+             Buffer<float>(c, "sort spare"), Buffer<Index>(c, "sort spare"),
+             Buffer<std::uint8_t>(c, "sort spare")) {}
 
 void Ordering::sort_keys(Index count) {
   if (sort_needs_scratch) spare_key_.resize(count), spare_order_.resize(count);

@@ -65,7 +65,8 @@ class Ordering {
   Buffer<std::uint8_t> exit_;
   Buffer<double> flag_;
   // Where reordered values go; takes the place of the array that they come from.
-  std::tuple<Buffer<Vec3d>, Buffer<Quad>, Buffer<Real>, Buffer<Index>, Buffer<std::uint8_t>> spare_;
+  std::tuple<Buffer<Vec3d>, Buffer<Quad>, Buffer<double>, Buffer<float>, Buffer<Index>, Buffer<std::uint8_t>>
+      spare_;
 };
 
 }  // namespace slagflow

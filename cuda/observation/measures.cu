@@ -62,6 +62,13 @@ struct InBox {
   }
 };
 
+struct SolidInBox {
+  InBox box;
+  Span<const Quad> heat;
+  Real fraction;
+  HOST_DEVICE double operator()(Index i) const { return heat[i].w >= fraction ? box(i) : 0; }
+};
+
 // Weighted sums of a quantity and of its products with the distance from the point.
 struct Moments {
   double plain = 0;
@@ -87,8 +94,9 @@ struct SecondMoments {
   }
 };
 
-// Fields in the order of ProfilePoint: velocity, shear rate, viscosity; and the fill.
-constexpr int profile_fields = 5;
+// Fields in the order of ProfilePoint: velocity, shear rate, viscosity, temperature, solid fraction; and the
+// fill.
+constexpr int profile_fields = 7;
 struct Sample {
   double field[profile_fields];
   double fill;
@@ -97,6 +105,7 @@ struct Sample {
 struct InterpolateAtPoint {
   AroundPoint around;
   Span<const Quad> motion, state;
+  Span<const Quad> heat;  // may be empty
   Span<const Real> shear_rate;
   Real inverse_support;
   Span<const Quad> point;
@@ -115,7 +124,9 @@ struct InterpolateAtPoint {
     Moments weights, fields[profile_fields];
     SecondMoments second;
     for_particles(xyz(point[i]), [&](Index j, double w, Vec3d d) {
-      const double value[profile_fields] = {motion[j].x, motion[j].y, motion[j].z, shear_rate[j], state[j].y};
+      const Quad warmth = heat.size > 0 ? heat[j] : Quad{};
+      const double value[profile_fields] = {motion[j].x, motion[j].y, motion[j].z, shear_rate[j],
+                                            state[j].y,  warmth.x,    warmth.w};
       weights.add(w, 1, d);
       second.add(w, d);
       for (int k = 0; k < profile_fields; ++k) fields[k].add(w, value[k], d);
@@ -145,6 +156,7 @@ ProfilePoint point_of(const Sample& sample, Vec3d position, double distance) {
   // A linear fit may undershoot what cannot be negative.
   p.shear_rate = known ? larger(0.0, value(3)) : value(3);
   p.viscosity = known ? larger(0.0, value(4)) : value(4);
+  p.temperature = value(5), p.solid_fraction = value(6);
   return p;
 }
 
@@ -223,6 +235,13 @@ std::int64_t count_in_box(Context& c, const FluidArrays& f, const BoxSetup& box,
   return count(c, scratch, f.count, InBox{f.position.span(), box.lower - origin, box.upper - origin});
 }
 
+std::int64_t count_solid(Context& c, const FluidArrays& f, const SolidSetup& solid, Vec3d origin,
+                         DiagnosticScratch& scratch) {
+  if (f.heat.size() == 0) return 0;
+  const InBox box{f.position.span(), solid.box.lower - origin, solid.box.upper - origin};
+  return count(c, scratch, f.count, SolidInBox{box, f.heat.span(), static_cast<Real>(solid.fraction)});
+}
+
 std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& source, const LineSetup& line,
                                           Vec3d origin) {
   std::vector<Quad> points;
@@ -233,8 +252,8 @@ std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& sourc
   result.resize(points.size());
   const FluidArrays& f = source.fluid;
   launch(c, "profile", line.points,
-         InterpolateAtPoint{around(source), f.motion.span(), f.state.span(), f.shear_rate.span(),
-                            1 / source.smoothing.support, point.span(), result.span()});
+         InterpolateAtPoint{around(source), f.motion.span(), f.state.span(), f.heat.span(),
+                            f.shear_rate.span(), 1 / source.smoothing.support, point.span(), result.span()});
   std::vector<Sample> samples;
   result.download(samples);
   std::vector<ProfilePoint> profile;

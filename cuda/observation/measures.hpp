@@ -53,6 +53,8 @@ class PlaneCounters {
 
 // Fluid particles in a box, its lower faces included.
 std::int64_t count_in_box(Context&, const FluidArrays&, const BoxSetup&, Vec3d origin, DiagnosticScratch&);
+// Of those in a box the ones with as many solids; none where heat is off.
+std::int64_t count_solid(Context&, const FluidArrays&, const SolidSetup&, Vec3d origin, DiagnosticScratch&);
 
 // What is needed to find the particles around a point: `drift` is how far they may have moved since they were
 // sorted into the cells [m].

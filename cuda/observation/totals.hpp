@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fluid/math.hpp"
+#include "fluid/thermal.hpp"
 
 namespace slagflow {
 
@@ -31,7 +32,9 @@ struct ProfilePoint {
   Vec3d velocity;         // [m/s]
   double shear_rate = 0;  // [1/s]
   double viscosity = 0;   // [Pa s]
-  double fill = 0;        // sum of V_j W: 1 inside of the fluid
+  // Where heat is on; the temperature is relative to that of reference where measure_profile() gives it.
+  double temperature = 0, solid_fraction = 0;  // [K], 1
+  double fill = 0;                             // sum of V_j W: 1 inside of the fluid
 };
 
 // What the fluid did to a wall since the start, as integrals over time: forces [N s], torques [N m s] about
@@ -96,8 +99,11 @@ struct Totals {
   std::vector<ContactState> contacts;             // one per SimulationSetup::contacts
   std::vector<ResidenceState> residences;         // one per SimulationSetup::residences
   std::vector<std::int64_t> boxes;                // particles in each of SimulationSetup::boxes
-  double impulse_time = 0;      // [s] until which their impulses were gathered: that of the velocities
-  std::vector<WallLoad> walls;  // one per SimulationSetup::bodies where SimulationSetup::measure_walls
+  bool heat_is_on = false;
+  HeatBalance heat;
+  std::vector<std::int64_t> solids;  // particles, one per SimulationSetup::solids
+  double impulse_time = 0;           // [s] until which their impulses were gathered: that of the velocities
+  std::vector<WallLoad> walls;       // one per SimulationSetup::bodies where SimulationSetup::measure_walls
 };
 
 }  // namespace slagflow

@@ -179,6 +179,7 @@ FedParticles Inlets::take_rows(double now, double last_dt) {
       fed.fluid.push_back(in.fluid);
       fed.motion.push_back(quad(to_real(speed * in.normal), 0));
       fed.column.push_back(static_cast<Index>(k));
+      fed.inlet.push_back(c.inlet);
     }
   }
   return fed;

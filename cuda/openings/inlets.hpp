@@ -16,6 +16,7 @@ struct FedParticles {
   std::vector<std::uint8_t> fluid;  // index
   std::vector<Quad> motion;         // m/s
   std::vector<Index> column;
+  std::vector<std::size_t> inlet;
 };
 
 class Inlets {

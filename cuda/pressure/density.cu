@@ -1,5 +1,7 @@
 #include "backend/launch.hpp"
 #include "fluid/lane_math.hpp"
+#include "fluid/yield_rheology.hpp"
+#include "neighbours/pair_rheology.hpp"
 #include "pressure/density.hpp"
 #include "pressure/pair_pressure.hpp"
 #include "walls/contact.hpp"
@@ -111,13 +113,15 @@ struct DensityAndShear {
       const Lanes noise = diffusing_share(centre, centre.viscosity + viscosity) * weight *
                           ((other.w - centre.excess) - smooth),
                   strain = volume * c.flow.smoothing.viscous(r2) * square(approach);
+      const Lanes within =
+          c.fluid.melt.size > 0 ? share_of_strain(c, i, Lanes(centre.viscosity), j) : Lanes(1);
       if (c.fluids.size == 1) {
-        sums.diffusion -= noise, sums.shear += strain;
+        sums.diffusion -= noise, sums.shear += within * strain;
         continue;
       }
       const LaneMask alike = same(c.fluid.fluid, j, c.fluid.fluid[i]);
       sums.diffusion -= select(alike, noise, Lanes(0));
-      sums.shear += select(alike, Lanes(1), own_side(centre.viscosity, viscosity)) * strain;
+      sums.shear += select(alike, within, own_side(centre.viscosity, viscosity)) * strain;
     }
   }
 
@@ -146,11 +150,6 @@ struct DensityAndShear {
   HOST_DEVICE Lanes diffusing_share(const Centre& centre, Lanes viscosities) const {
     const Lanes reference = Real(2) * centre.rest_density * c.flow.damping_reference;
     return reference / (reference + viscosities);
-  }
-
-  // Share of i of the square of the strain rate of a pair of two fluids.
-  HOST_DEVICE static Lanes own_side(Lanes own, Lanes other) {
-    return square(Real(2) * other / (own + other));
   }
 
   HOST_DEVICE void add_walls(Index i, const Centre& centre, PairSums& sums) const {
@@ -214,12 +213,21 @@ struct StateFromDensity {
   FlowConstants flow;
   Span<const std::uint8_t> fluid;
   Span<const Real> excess, shear_rate, packing;
-  Span<Quad> place, motion, state;
+  Span<Quad> place, motion, state, melt;
   Span<Real> pressure, hollow;
+
+  // With heat the rheology is that of the particle's temperature.
+  HOST_DEVICE Real viscosity_of(Index i, const FluidConstants& f) const {
+    if (melt.size == 0) return viscosity(f.rheology, shear_rate[i]);
+    const Rheology now = Melt(melt[i]).of(f.rheology);
+    const Real eta = smaller(viscosity(now, shear_rate[i]), f.max_viscosity);
+    melt[i].w = smaller(viscous_part_of(now, shear_rate[i]), eta);
+    return eta;
+  }
 
   HOST_DEVICE void operator()(Index i) const {
     const FluidConstants& f = fluids[fluid[i]];
-    const Real eta = viscosity(f.rheology, shear_rate[i]);
+    const Real eta = viscosity_of(i, f);
     const Real limit = flow.viscous_tension
                            ? smaller(flow.tension_limit, larger(Real(0), most_tension * eta * shear_rate[i]))
                            : flow.tension_limit;
@@ -251,7 +259,7 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
   launch(context, "state", fluid.count,
          StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
                           fluid.packing.span(), fluid.place.span(), fluid.motion.span(), fluid.state.span(),
-                          fluid.pressure.span(), fluid.hollow.span()});
+                          fluid.melt.span(), fluid.pressure.span(), fluid.hollow.span()});
 }
 
 }  // namespace slagflow

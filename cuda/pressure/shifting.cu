@@ -1,5 +1,6 @@
 #include "backend/launch.hpp"
 #include "fluid/lane_math.hpp"
+#include "fluid/melt.hpp"
 #include "pressure/shifting.hpp"
 
 namespace slagflow {
@@ -21,6 +22,7 @@ struct Shift {
 
   HOST_DEVICE void operator()(Index i) const {
     constexpr Real surface = Real(0.92), inside = Real(0.97), most = Real(0.024);
+    if (c.fluid.melt.size > 0 && Melt(c.fluid.melt[i]).is_solid()) return;
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
     Crowding sum;
     add(c.fluid_list, i, x, sum, c.fluid.place, false);

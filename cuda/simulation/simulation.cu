@@ -76,6 +76,7 @@ Simulation::State::State(const SimulationSetup& s)
       wall_list_places(context, "wall places of the list"),
       scratch(context, "scratch"),
       viscous(context, s.numerics),
+      heat(context),
       diagnostics(context),
       watch(context, setup),
       planes(s),
@@ -90,9 +91,9 @@ Simulation::State::State(const SimulationSetup& s)
   if (setup.time_parts) step_graph.launch_singly();
   departed.resize(s.fluids.size());
   ordering.set_outlets(outlet_boxes(s), s.fluids.size());
-  dt = full_dt = stable_time_step(setup);
   time = setup.start_time, last_dt = setup.last_step;
   upload_fluid();
+  dt = full_dt = longest_step();
   upload_walls();
   planes.begin(context, fluid, diagnostics);
   residence.start(setup);
@@ -133,6 +134,7 @@ void Simulation::State::upload_fluid() {
   fluid.state.upload(state);
   fluid.pressure.upload({p.pressure.begin(), p.pressure.end()});
   fluid.shear_rate.upload(std::vector<Real>(n));
+  heat.start(setup, memory.enthalpy, fluid);
   setup.particles = {};  // from here on the device has them
 }
 
@@ -153,7 +155,9 @@ void Simulation::State::rebuild() {
   rectangles.advance(context, fluid, list_places.span(), diagnostics);
   residence.leave(fluid, ordering.outlets(), time, diagnostics);
   const bool fed = feed();
+  const double content = heat.any() ? heat.content(fluid, fluids.span(), diagnostics) : 0;
   ordering.sort(fluid, departed);
+  if (heat.any()) heat.note_left(content, heat.content(fluid, fluids.span(), diagnostics));
   check_departure();
   if (walls.any()) ordering.sort(wall);
   build_lists();
@@ -175,10 +179,18 @@ bool Simulation::State::feed() {
   const FedParticles fed = inlets.feed({time, last_dt, first_id}, wall, fluids.span(), flow, fluid);
   if (fed.position.empty()) return false;
   planes.add(fed.position);
+  enter_heat(before, fed);
   residence.enter(first_id, time);
   given += energy_from(context, before, fluid, fluids.span(), setup, diagnostics);
   inlets.place({time, dt, last_dt}, wall);
   return true;
+}
+
+void Simulation::State::enter_heat(Index before, const FedParticles& fed) {
+  if (!heat.any()) return;
+  std::vector<double> temperature;
+  for (const std::size_t inlet : fed.inlet) temperature.push_back(setup.inlets[inlet].temperature);
+  heat.enter(before, fed.fluid, temperature, fluid);
 }
 
 double Simulation::State::fed_mass() const {

@@ -28,6 +28,9 @@ struct FluidSnapshot {
   std::vector<std::uint8_t> yielded;     // 1 where that exceeds the yield stress
   std::vector<std::uint8_t> fluid;       // index of the fluid
   std::vector<std::int64_t> id;          // constant through the run
+  bool heat = false;                     // whether it is on:
+  std::vector<float> temperature;        // [K]
+  std::vector<float> solid_fraction;     // of the volume
 };
 
 // The fluid of a state, with which another simulation can begin.
@@ -59,6 +62,9 @@ void describe(Visitor& v, const FluidSnapshot& s) {
   v("Yielded", "1", "1 where the stress exceeds the yield stress", s.yielded);
   v("Fluid", "1", "index of the fluid, in the order of the case", s.fluid);
   v("ParticleId", "1", "number of the particle, constant through the run", s.id);
+  if (!s.heat) return;
+  v("Temperature", "K", "temperature", s.temperature);
+  v("SolidFraction", "1", "share of solids in the volume", s.solid_fraction);
 }
 
 struct WallSnapshot {
@@ -67,12 +73,15 @@ struct WallSnapshot {
   std::vector<Vec3d> position;     // [m]
   std::vector<float> pressure;     // [Pa]
   std::vector<std::uint8_t> body;  // index of the body
+  bool heat = false;               // whether it is on:
+  std::vector<float> temperature;  // [K] of the surface; not-a-number where no heat passes
 };
 
 template <class Visitor>
 void describe(Visitor& v, const WallSnapshot& s) {
   v("Pressure", "Pa", "pressure", s.pressure);
   v("Wall", "1", "index of the wall, in the order of the case", s.body);
+  if (s.heat) v("Temperature", "K", "of the surface; not-a-number where no heat passes", s.temperature);
 }
 
 enum class Reading { fluid, fluid_and_walls };

@@ -69,6 +69,10 @@ Totals Simulation::totals() {
   t.residences = s.residence.states(s.fluid, s.time, s.diagnostics);
   for (const BoxSetup& box : s.setup.boxes)
     t.boxes.push_back(count_in_box(s.context, s.fluid, box, s.setup.domain.lower, s.diagnostics));
+  t.heat_is_on = s.heat.any();
+  if (t.heat_is_on) t.heat = s.heat.balance(s.fluid, s.fluids.span(), s.diagnostics);
+  for (const SolidSetup& solid : s.setup.solids)
+    t.solids.push_back(count_solid(s.context, s.fluid, solid, s.setup.domain.lower, s.diagnostics));
   return t;
 }
 
@@ -86,7 +90,9 @@ ProfileSource Simulation::State::profile_source() const {
 }
 
 std::vector<ProfilePoint> Simulation::State::profile(const LineSetup& line) {
-  return measure_profile(context, profile_source(), line, setup.domain.lower);
+  std::vector<ProfilePoint> profile = measure_profile(context, profile_source(), line, setup.domain.lower);
+  for (ProfilePoint& point : profile) point.temperature += heat.reference();
+  return profile;
 }
 
 void Simulation::State::measure_stress(Span<Real> result) {

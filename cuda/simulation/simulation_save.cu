@@ -135,7 +135,7 @@ void visit_parts(Visitor& v, State& s) {
   s.fluid.each(Fate::saved, [&](auto& array) { v.array(array.field.name, array); });
   s.wall.each(Fate::saved, [&](auto& array) { v.as_many(array.field.name, array); });
   s.wall_forces.save(v), s.planes.save(v), s.rectangles.save(v), s.residence.save(v), s.viscous.save(v),
-      s.watch.save(v);
+      s.watch.save(v), s.heat.save(v);
   v.array("list_places", s.list_places), v.as_many("departed", s.departed);
   v.as_many("removed", s.ordering.removed);
   visit_solves(v, s.solver, s.report);
@@ -173,7 +173,11 @@ void require_possible(const FluidArrays& fluid, const Buffer<Quad>& list_places,
 
 constexpr const char* clock_name = "clock";  // time and last step [s], lower corner of the domain [m]
 constexpr const char* fluid_names[] = {"position", "motion", "by_pressure", "hollow",
-                                       "packing",  "id",     "fluid"};
+                                       "packing",  "id",     "fluid",       "enthalpy"};
+
+bool holds(const SavedState& arrays, const char* name) {
+  return std::any_of(arrays.begin(), arrays.end(), [=](const SavedArray& a) { return a.name == name; });
+}
 
 // Checks what a simulation counts on, that ids ascend among it.
 void require_possible(const FluidState& f) {
@@ -216,6 +220,10 @@ SavedState fluid_arrays(const FluidSnapshot& s, const std::vector<FluidSetup>& f
   saver.values("position", position), saver.values("motion", motion);
   saver.values("by_pressure", by_pressure), saver.values("hollow", hollow);
   saver.values("packing", packing), saver.values("id", id), saver.values("fluid", kind);
+  if (s.heat) {
+    std::vector<double> temperature(s.temperature.begin(), s.temperature.end());
+    saver.values("temperature", temperature);
+  }
   std::vector<double> clock{s.time, 0, 0, 0, 0};
   saver.values(clock_name, clock);
   return result;
@@ -233,9 +241,14 @@ FluidState fluid_state(const SavedState& arrays) {
   restorer.values("by_pressure", by_pressure), restorer.values("hollow", hollow);
   restorer.values("packing", packing), restorer.values("id", id), restorer.values("fluid", kind);
   restorer.values(clock_name, clock);
+  std::vector<double> enthalpy, temperature;  // one of them where heat was on
+  if (holds(arrays, "enthalpy")) restorer.values("enthalpy", enthalpy);
+  if (holds(arrays, "temperature")) restorer.values("temperature", temperature);
   const std::size_t n = id.size();
   Restorer::require_fit(position.size() == n && motion.size() == n && by_pressure.size() == n &&
-                        hollow.size() == n && packing.size() == n && kind.size() == n && clock.size() == 5);
+                        hollow.size() == n && packing.size() == n && kind.size() == n && clock.size() == 5 &&
+                        (enthalpy.empty() || enthalpy.size() == n) &&
+                        (temperature.empty() || temperature.size() == n));
   std::vector<std::size_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
@@ -248,6 +261,8 @@ FluidState fluid_state(const SavedState& arrays) {
     p.fluid.push_back(kind[i]), p.memory.id.push_back(id[i]);
     p.memory.excess.push_back(motion[i].w), p.memory.hollow.push_back(hollow[i]);
     p.memory.packing.push_back(packing[i]), p.memory.by_pressure.push_back(xyz(by_pressure[i]));
+    if (!enthalpy.empty()) p.memory.enthalpy.push_back(enthalpy[i]);
+    if (!temperature.empty()) p.temperature.push_back(temperature[i]);
   }
   require_possible(result);
   return result;

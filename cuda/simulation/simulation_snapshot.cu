@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "backend/launch.hpp"
+#include "fluid/melt.hpp"
 #include "simulation/simulation_state.hpp"
 
 namespace slagflow {
@@ -15,11 +16,17 @@ struct FlagYielded {
   Span<const Real> stress;
   Span<std::uint8_t> result;
   Span<const Real> held{};  // of an exact yield stress
+  Span<const Quad> melt{};  // with heat
   HOST_DEVICE void operator()(Index i) const {
+    const Rheology& own = fluids[fluid[i]].rheology;
+    bool flows = false;
     if (held.data)
-      result[i] = held[i] < 1 ? 1 : 0;
+      flows = held[i] < 1;
+    else if (melt.size == 0)
+      flows = yielded(own, stress[i]);
     else
-      result[i] = yielded(fluids[fluid[i]].rheology, stress[i]) ? 1 : 0;
+      flows = !Melt(melt[i]).is_solid() && yielded(Melt(melt[i]).of(own), stress[i]);
+    result[i] = flows ? 1 : 0;
   }
 };
 
@@ -32,7 +39,8 @@ struct StateTransfer::Data {
   const Simulation::State* of = nullptr;  // null: nothing is under way
   double time = 0, list_time = 0;
   Reading what{};
-  std::size_t fluid = 0, walls = 0;  // particles
+  std::size_t fluid = 0, walls = 0;     // particles
+  std::vector<float> wall_temperature;  // [K] by id, where heat is on
 
   template <class T>
   void add(const Buffer<T>& buffer) {
@@ -49,6 +57,7 @@ struct StateTransfer::Data {
     return static_cast<const T*>(copy.part(static_cast<std::size_t>(at - buffers.begin())));
   }
   void put(FluidSnapshot& out) const;
+  void put_heat(const std::vector<std::size_t>& order, FluidSnapshot& out) const;
   void put(WallSnapshot& out) const;
 
   struct End {
@@ -102,6 +111,18 @@ void StateTransfer::Data::put(FluidSnapshot& out) const {
     out.thickness[k] = static_cast<float>(thickness[i]);
     out.yielded[k] = yielded[i], out.fluid[k] = kind[i], out.id[k] = id[i];
   }
+  put_heat(order, out);
+}
+
+void StateTransfer::Data::put_heat(const std::vector<std::size_t>& order, FluidSnapshot& out) const {
+  if (!of->heat.any()) return;
+  const Quad* heat = part(of->fluid.heat);
+  out.heat = true;
+  out.temperature.clear(), out.solid_fraction.clear();
+  for (const std::size_t i : order) {
+    out.temperature.push_back(static_cast<float>(of->heat.reference() + static_cast<double>(heat[i].x)));
+    out.solid_fraction.push_back(static_cast<float>(heat[i].w));
+  }
 }
 
 void StateTransfer::Data::put(WallSnapshot& out) const {
@@ -113,7 +134,8 @@ void StateTransfer::Data::put(WallSnapshot& out) const {
     by_id[static_cast<std::size_t>(id[i])] = static_cast<float>(pressure[i]);
   out.time = time;
   out.moves = of->walls.any();
-  out.position.clear(), out.pressure.clear(), out.body.clear();
+  out.heat = of->heat.any();
+  out.position.clear(), out.pressure.clear(), out.body.clear(), out.temperature.clear();
   for (std::size_t k = 0; k < by_id.size(); ++k) {
     const std::uint8_t body = w.body[k];
     if (of->walls.removed(body, time)) continue;
@@ -121,6 +143,7 @@ void StateTransfer::Data::put(WallSnapshot& out) const {
                                ? of->inlets.position_at(k, time, list_time)
                                : of->walls.position_at(w.position[k], body, time));
     out.pressure.push_back(by_id[k]), out.body.push_back(body);
+    if (out.heat) out.temperature.push_back(wall_temperature[k]);
   }
 }
 
@@ -131,7 +154,8 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
   s.measure_stress(s.scratch.span());
   launch(s.context, "yielded", n,
          FlagYielded{s.fluids.span(), s.fluid.fluid.span(), s.scratch.span(), s.yielded.span(),
-                     s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{}});
+                     s.exact_yield() ? s.viscous.exact_yield().held() : Span<const Real>{},
+                     s.fluid.melt.span()});
   const Buffer<Real>& thickness = s.sheets.measure(s.pairs());
   StateTransfer::Data& data = *transfer.data_;
   data.what = what, data.time = s.time, data.list_time = s.list_time;
@@ -139,6 +163,7 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
   data.parts.clear(), data.buffers.clear();
   data.add_shown(s.fluid), data.add(s.scratch), data.add(thickness), data.add(s.yielded);
   if (what == Reading::fluid_and_walls) data.add_shown(s.wall);
+  if (what == Reading::fluid_and_walls && s.heat.any()) data.wall_temperature = s.heat.wall_temperatures();
   data.copy.start(s.side_stream, data.parts);
   data.of = state_.get();
 }

@@ -7,6 +7,7 @@
 #include "backend/side_copy.hpp"
 #include "capillarity/surface_tension.hpp"
 #include "fluid/constants.hpp"
+#include "heat/heat.hpp"
 #include "neighbours/list_age.hpp"
 #include "neighbours/neighbours.hpp"
 #include "neighbours/ordering.hpp"
@@ -51,6 +52,7 @@ struct Simulation::State {
   ViscousStep::Step solve_step{};  // of the solve under way
   std::optional<StepRecord> last;  // of the last step, when it tells how far the particles have moved
   ViscousStep viscous;
+  Heat heat;
   DiagnosticScratch diagnostics;
   Watch watch;
   PlaneCounters planes;
@@ -85,6 +87,9 @@ struct Simulation::State {
   }
   void place_walls();
   bool feed();
+  void enter_heat(Index before, const FedParticles&);
+  double longest_step() const { return smaller(stable_time_step(setup), heat.longest_step()); }
+  void add_friction();
   Index next_id() const { return start_count + static_cast<Index>(inlets.all_fed()); }
   double fed_mass() const;
   void tell_openings(Totals&) const;

@@ -10,16 +10,18 @@ namespace slagflow {
 void Simulation::step() {
   State& s = *state_;
   s.place_walls();
-  if (!s.lists_hold()) {
+  const bool lists_are_new = !s.lists_hold();
+  if (lists_are_new) {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
     const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics),
                                 larger(s.walls.largest_speed(), s.inlets.largest_speed()));
-    s.full_dt =
-        smaller(stable_time_step(s.setup), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
+    s.full_dt = smaller(s.longest_step(), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
   s.choose_time_step();
   s.place_walls();  // with the velocities of this step
+  if (s.heat.due(s.time + s.dt, s.dt, lists_are_new))
+    s.heat.conduct(s.pairs(), s.wall_to_fluid.view(), s.time + s.dt, s.fluid);
   if (s.fluid.count > 0) {
     s.last = s.solve_and_move();
     s.taken += s.last->taken, s.given += s.last->given;
@@ -64,6 +66,7 @@ void Simulation::State::reserve_step() {
   scratch.resize(fluid.count);
   viscous.reserve(fluid.count, fluid_list.capacity(), row_cells());
   list_age.reserve(grid);
+  if (setup.thermal.viscous_heating) heat.reserve(fluid.count);
 }
 
 void Simulation::State::launch_step() {
@@ -84,6 +87,7 @@ void Simulation::State::launch_step() {
 // All of it is idle unless the solve has converged.
 void Simulation::State::launch_move() {
   add_wall_forces();
+  add_friction();
   shift();
   StepRecord* record = viscous.record();
   surface_tension.launch_power(fluid, viscous.velocity(), record);
@@ -106,6 +110,15 @@ void Simulation::State::add_wall_forces() {
       viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
       {solve_step.dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),
        viscous.wall_yield(), surface_tension.view(), &viscous.record()->solve});
+}
+
+void Simulation::State::add_friction() {
+  if (!setup.thermal.viscous_heating) return;
+  Section timer(context, "heat");
+  heat.launch_friction(pairs(),
+                       {viscous.weights(), viscous.predicted(), viscous.velocity(), &viscous.record()->solve,
+                        static_cast<Real>(solve_step.dt)},
+                       fluid);
 }
 
 void Simulation::State::shift() {

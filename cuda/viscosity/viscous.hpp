@@ -59,6 +59,9 @@ class ViscousStep {
 
   ExactYield& exact_yield() { return yield_; }
   Span<const Quad> velocity() const { return velocity_.span(); }
+  // Of the step: u*, and w_ij of each entry of the fluid list [kg].
+  Span<const Quad> predicted() const { return predicted_.span(); }
+  Span<const Real> weights() const { return weight_.span(); }
   // The share of the viscous forces that velocity() gives, theta or 0; and what gives the rest, until the
   // fluid moves on.
   double implicit_share() const;

@@ -8,6 +8,7 @@
 #include "host/case/case_keys.hpp"
 #include "host/case/case_reader.hpp"
 #include "host/case/case_rules.hpp"
+#include "host/case/keys_thermal.hpp"
 
 namespace slagflow {
 namespace {
@@ -64,7 +65,9 @@ Case parse_case(const std::string& text, const std::string& file, const std::vec
   CaseReader reader(source.root(), Place{file + ":1", 0}, problems);
   describe(reader, c);
   reader.finish();
+  resolve_thermal(c);
   check_across_tables(c, problems);
+  check_thermal(c, problems);
   problems.raise();
   for (const auto& [key, place] : problems.places()) c.places[key] = place.text;
   return c;

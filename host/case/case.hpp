@@ -70,7 +70,9 @@ struct FluidSpec {
   double density = 0;          // [kg/m^3]
   double surface_tension = 0;  // [N/m]
   RheologyKind rheology = RheologyKind::newtonian;
-  std::array<double, most_parameters> parameters{};  // in the order of RheologyInfo::parameters
+  // In the order of RheologyInfo::parameters; what heat sets is that of the hottest fluid of the start.
+  std::array<double, most_parameters> parameters{};
+  MaterialSetup material{};  // where heat is on
 
   const RheologyInfo& info() const { return rheologies[static_cast<std::size_t>(rheology)]; }
   Rheology law() const {
@@ -108,6 +110,7 @@ struct RegionSpec {
   InitialPressure pressure = InitialPressure::hydrostatic;
   double uniform_pressure = 0;  // [Pa]
   double jitter = 0;            // [spacings] that particles start away from the lattice, along each axis
+  double temperature = 0;       // [K] where heat is on
 };
 
 struct WallSpec {
@@ -118,6 +121,7 @@ struct WallSpec {
   double tension_limit = -1;  // [Pa], up to that of [numerics]; < 0: that
   RigidVelocity surface{};    // of the material along the surface
   WallMotion motion{};
+  WallThermal thermal{};
   std::vector<ShapeSpec> shapes, subtract;
 };
 
@@ -139,6 +143,7 @@ struct InletSpec {
   std::vector<std::array<double, 2>> rows;     // [s] and the same
   double start = 0, stop = WallMotion::never;  // [s]
   InletProfile profile = InletProfile::plug;
+  double temperature = 0;  // [K] where heat is on
 };
 
 enum class OutletShape { box, plane };
@@ -176,26 +181,29 @@ enum class MeasureType {
   surface,
   contact,
   residence,
-  mixing
+  mixing,
+  solid,
+  heat
 };
 
 struct MeasureSpec {
   std::string name;
   MeasureType type = MeasureType::front;
   double fraction = 0.002;       // front, jet: of all fluid particles that must have passed
+  double solid_fraction = 0.5;   // solid: the least that counts
   Direction direction;           // front, flow_rate: the way it goes
   double position = 0;           // [m] front, flow_rate: the line or plane, along that axis
   Vec3d lip;                     // [m] jet: the dam's lip
   Direction outward;             // jet: horizontal, away from the wall
   double bottom = 0;             // [m] jet: coordinate along gravity's axis where the leading edge arrives
-  Vec3d min, max;                // [m] volume, mixing: the box
+  Vec3d min, max;                // [m] volume, mixing, solid: the box
   double cell = 0;               // [m] mixing: side of a cell; 0: five spacings
   int fluid = 0;                 // mixing: index into Case::fluids
   Vec3d start, end;              // [m] profile, level, surface: the line
   int points = 50;               // profile, surface: on the line, both ends included
   Vec3d across;                  // [m] surface: from the first line to the last
   int rows = 1;                  // surface: lines
-  int wall = 0;                  // force, contact: index into Case::walls
+  int wall = 0;                  // force, contact, heat: index into Case::walls
   Vec3d about;                   // [m] force: the point of its torque
   Vec3d center, normal;          // [m] flux: of the rectangle
   Vec3d up;                      // flux: along its height; 0: as much upwards as normal allows
@@ -222,7 +230,8 @@ struct Case {
   DomainSetup domain;
   std::array<bool, 6> exits{};  // faces -x +x -y +y -z +z that fluid is meant to leave through
   NumericsSetup numerics;       // sound_speed 0: automatic, see BuiltCase::resolved
-  LimitSetup limits;            // max_speed 0: automatic, see BuiltCase::resolved
+  ThermalSetup thermal;
+  LimitSetup limits;  // max_speed 0: automatic, see BuiltCase::resolved
   OutputSpec output;
   std::vector<MeasureSpec> measures;
 

@@ -161,6 +161,7 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
       return check_jet(c, index, problems);
     case MeasureType::volume:
     case MeasureType::mixing:
+    case MeasureType::solid:
       return check_box(c, measure_key(index), c.measures[index].min, c.measures[index].max, problems);
     case MeasureType::profile:
     case MeasureType::level:
@@ -172,6 +173,7 @@ void check_measure(const Case& c, std::size_t index, CaseProblems& problems) {
     case MeasureType::force:
     case MeasureType::contact:
     case MeasureType::residence:
+    case MeasureType::heat:
       return;
   }
 }

@@ -30,6 +30,7 @@ class CaseReader : public CaseVisitor {
   bool choice_or_number(const Key&, int& index, const Words&, double&, const Range&) override;
 
   bool given(std::initializer_list<const char*> keys) const override;
+  bool is_table(const char* name) const override { return frames_.back().table.is_table(name); }
   bool given_by_set(const char* name) const override { return frames_.back().table.set(name); }
   void problem(const std::string& name, const std::string& what) override;
   // Reports the keys of the file's top level that are not known. Once, at the end.

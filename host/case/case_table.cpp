@@ -147,6 +147,8 @@ bool CaseTable::set(const char* key) const {
 
 bool CaseTable::is_list(const char* key) const { return has(key) && table_->as_table().at(key).is_array(); }
 
+bool CaseTable::is_table(const char* key) const { return has(key) && table_->as_table().at(key).is_table(); }
+
 void CaseTable::refuse(const char* key, const std::string& reason) {
   if (!find(key, Need::optional, "")) return;
   problem(key, "does not go with the other keys: " + reason);

@@ -120,6 +120,7 @@ class CaseTable {
   bool set(const char* key) const;
   bool faulty() const { return !problems_->fine_within(path_); }
   bool is_list(const char* key) const;
+  bool is_table(const char* key) const;
   // Reports the key, if it is given, as one that does not go with the others.
   void refuse(const char* key, const std::string& reason);
   const std::string& path() const { return path_; }

@@ -125,6 +125,8 @@ class CaseVisitor {
 
   // Whether any of the keys is given, be it right or wrong.
   virtual bool given(std::initializer_list<const char*>) const { return false; }
+  // Whether the key is given, and holds a table.
+  virtual bool is_table(const char* /*key*/) const { return false; }
   // Whether the command line gives it, which goes before the file.
   virtual bool given_by_set(const char* /*key*/) const { return false; }
   // Whether members without a key take their defaults: so it is unless a case is written.

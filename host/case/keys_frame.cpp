@@ -1,6 +1,7 @@
 // The tables that a case has once, and the order of all.
 #include "host/case/case_keys.hpp"
 #include "host/case/case_rules.hpp"
+#include "host/case/keys_thermal.hpp"
 
 namespace slagflow {
 namespace {
@@ -76,6 +77,7 @@ void describe_frame(CaseVisitor& v, Case& c) {
 
 void describe(CaseVisitor& v, Case& c) {
   describe_frame(v, c);
+  describe_thermal(v, c);
   describe_fluids(v, c);
   describe_regions(v, c);
   describe_walls(v, c);

@@ -5,8 +5,8 @@
 namespace slagflow {
 namespace {
 
-const Words measure_names{"front", "jet",  "flow_rate", "volume",  "profile",   "force",
-                          "level", "flux", "surface",   "contact", "residence", "mixing"};
+const Words measure_names{"front", "jet",     "flow_rate", "volume",    "profile", "force", "level",
+                          "flux",  "surface", "contact",   "residence", "mixing",  "solid", "heat"};
 
 void describe_direction(CaseVisitor& v, const Key& k, Direction& direction) {
   int index = index_of(direction);
@@ -63,7 +63,8 @@ void describe_points(CaseVisitor& v, MeasureSpec& m) {
 
 void describe_wall_of(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   const bool force = m.type == MeasureType::force;
-  if (const auto with = v.only(force || m.type == MeasureType::contact, {"type", {"force", "contact"}})) {
+  if (const auto with = v.only(force || m.type == MeasureType::contact || m.type == MeasureType::heat,
+                               {"type", {"force", "contact", "heat"}})) {
     Words names;
     for (const WallSpec& wall : c.walls) names.push_back(wall.name);
     v.reference(required("wall", "name of the wall"), m.wall, names, "a wall");
@@ -113,9 +114,15 @@ void describe_measure(CaseVisitor& v, const Case& c, MeasureSpec& m) {
   describe_own_name(v, required("name", "unique; letters, digits, _ - ."), c.measures, m);
   if (!v.choice(required("type", "see Measures"), m.type, measure_names)) return;
   describe_passing(v, m);
-  if (const auto with = v.only(m.type == MeasureType::volume || m.type == MeasureType::mixing,
-                               {"type", {"volume", "mixing"}}))
+  const bool box = m.type == MeasureType::volume || m.type == MeasureType::mixing;
+  if (const auto with = v.only(box || m.type == MeasureType::solid, {"type", {"volume", "mixing", "solid"}}))
     describe_volume(v, m);
+  if (const auto with = v.only(m.type == MeasureType::solid, {"type", {"solid"}}))
+    v.number(key("solid_fraction", "the least with which fluid counts"), m.solid_fraction,
+             above_to(0, 1, ""));
+  const bool of_heat = m.type == MeasureType::solid || m.type == MeasureType::heat;
+  if (of_heat && !c.thermal.on)
+    v.problem("type", "needs heat, which is off: allowed: with a table [thermal], or another type");
   const auto is = [&](MeasureType type) { return m.type == type; };
   if (const auto with = v.only(is(MeasureType::profile) || is(MeasureType::level) || is(MeasureType::surface),
                                {"type", {"profile", "level", "surface"}}))

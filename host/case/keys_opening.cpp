@@ -5,6 +5,7 @@
 
 #include "host/case/case_keys.hpp"
 #include "host/case/case_rules.hpp"
+#include "host/case/keys_thermal.hpp"
 
 namespace slagflow {
 namespace {
@@ -104,6 +105,7 @@ void describe_inlet(CaseVisitor& v, Case& c, InletSpec& inlet) {
       !(norm(inlet.normal) > 0))
     v.problem("normal", "value [0, 0, 0] has no direction: allowed: a vector longer than 0");
   describe_feed(v, inlet);
+  describe_start_temperature(v, c, required("temperature", "of what comes in"), inlet.temperature);
   v.number(key("start", "of the feed"), inlet.start, at_least(0, "s"));
   v.number(key("stop", "of the feed").by_default("never"), inlet.stop, above(inlet.start, "s, above start"));
   v.choice(key("profile",

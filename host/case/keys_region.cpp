@@ -1,5 +1,6 @@
 // [[region]]: where fluid is at the start.
 #include "host/case/case_keys.hpp"
+#include "host/case/keys_thermal.hpp"
 
 namespace slagflow {
 namespace {
@@ -39,6 +40,7 @@ void describe_region(CaseVisitor& v, const Case& c, RegionSpec& region) {
   if (region.fill.given && !region.shapes.empty())
     v.problem("fill", "stands beside shapes: allowed: one of them");
   describe_shapes(v, key("subtract", "what is taken away"), region.subtract, c.file);
+  describe_start_temperature(v, c, required("temperature", "at the start"), region.temperature);
   v.vector(key("velocity", "at the start"), region.velocity, any_number("m/s"));
   v.vector(key("angular_velocity", "rigid rotation about center, added to velocity"), region.angular_velocity,
            any_number("rad/s"));

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "host/case/case_keys.hpp"
+#include "host/case/keys_thermal.hpp"
 #include "host/case/motion_file.hpp"
 
 namespace slagflow {
@@ -148,6 +149,7 @@ void describe_wall(CaseVisitor& v, Case& c, WallSpec& wall) {
           "\"limit\" the fluid's. Where a wall holds better than the fluid itself, the fluid parts beside it")
           .or_word("auto", -1),
       wall.tension_limit, at_least(0, "Pa"));
+  describe_wall_heat(v, c, wall);
   describe_surface(v, wall);
   v.number(key("remove_at", "the wall vanishes: a gate that is gone at once").by_default("never"),
            wall.motion.remove_at, at_least(0, "s"));

@@ -32,11 +32,20 @@ Range fractions(const Suspension& law) {
   return range;
 }
 
-std::string fault_of(const YieldRows& rows, const SuspensionSpec& suspension) {
+double most_fraction(const Suspension& law) {
+  return law.law == SuspensionLaw::thomas ? thomas_limit : law.critical_fraction;
+}
+
+std::string fault_of(const YieldRows& rows) {
   const std::size_t wrong = wrong_row(rows);
-  if (wrong < rows.size())
-    return "row [" + show(rows[wrong][0]) + ", " + show(rows[wrong][1]) +
-           "] is out of range or order: allowed: " + yield_rows_allowed;
+  if (wrong == rows.size()) return "";
+  return "row [" + show(rows[wrong][0]) + ", " + show(rows[wrong][1]) +
+         "] is out of range or order: allowed: " + yield_rows_allowed;
+}
+
+std::string fault_of(const YieldRows& rows, const SuspensionSpec& suspension) {
+  const std::string fault = fault_of(rows);
+  if (!fault.empty()) return fault;
   if (suspension.complete && suspension.solid_fraction > rows.back()[0])
     return "the table ends at the solid fraction " + show(rows.back()[0]) +
            ": allowed: rows up to solid_fraction = " + show(suspension.solid_fraction);

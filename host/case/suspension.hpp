@@ -37,6 +37,9 @@ inline constexpr const char* yield_rows_allowed =
 
 // What is wrong with the rows, and what is allowed; empty: nothing.
 std::string fault_of(const YieldRows& rows, const SuspensionSpec& suspension);
+std::string fault_of(const YieldRows& rows);
+// The solid fraction from which on nothing flows.
+double most_fraction(const Suspension&);
 double yield_stress_at(double solid_fraction, const YieldRows& rows);
 
 }  // namespace slagflow

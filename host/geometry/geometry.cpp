@@ -104,6 +104,7 @@ class Filler {
       for (std::string& warning : cut_warnings(c_, r, solid, sites))
         result_.warnings.push_back(std::move(warning));
     out.fluid.resize(out.position.size(), static_cast<std::uint8_t>(region.fluid));
+    if (c_.thermal.on) out.temperature.resize(out.position.size(), region.temperature);
     region_.resize(out.position.size(), static_cast<std::uint32_t>(r));
   }
 

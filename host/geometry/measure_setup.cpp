@@ -67,7 +67,10 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
       return setup.contacts.push_back(static_cast<std::size_t>(measure.wall));
     case MeasureType::residence:
       return setup.residences.push_back(static_cast<std::size_t>(measure.outlet));
+    case MeasureType::solid:
+      return setup.solids.push_back({{measure.min, measure.max}, measure.solid_fraction});
     case MeasureType::mixing:  // of a snapshot
+    case MeasureType::heat:
       return;
     case MeasureType::force:
       setup.measure_walls = true;
@@ -78,7 +81,10 @@ void add_measure(const Case& c, const MeasureSpec& measure, SimulationSetup& set
 
 void add_measures(const Case& c, SimulationSetup& setup) {
   for (const MeasureSpec& measure : c.measures) add_measure(c, measure, setup);
-  if (!setup.contacts.empty()) setup.site_area = site_areas(c, setup, setup.contacts);
+  std::vector<std::size_t> bodies = setup.contacts;
+  for (std::size_t b = 0; b < setup.bodies.size(); ++b)
+    if (setup.bodies[b].thermal.kind != WallHeat::adiabatic) bodies.push_back(b);
+  if (!bodies.empty()) setup.site_area = site_areas(c, setup, bodies);
 }
 
 }  // namespace slagflow

@@ -89,6 +89,7 @@ void add_openings(const Case& c, const std::vector<InletColumns>& inlets, Simula
     inlet.normal = in.normal, inlet.stride = in.stride;
     inlet.origin = in.origin, inlet.share = in.share;
     inlet.rate = feed_rate(c, c.inlets[k], in.area);
+    inlet.temperature = c.inlets[k].temperature;
     WallBody body;
     body.name = inlet.name;
     setup.bodies.push_back(body);

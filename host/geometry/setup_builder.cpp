@@ -33,6 +33,7 @@ FluidSetup fluid_setup(const FluidSpec& spec) {
   fluid.rest_density = spec.density;
   fluid.surface_tension = spec.surface_tension;
   fluid.rheology = spec.law();
+  fluid.material = spec.material;
   return fluid;
 }
 
@@ -93,8 +94,9 @@ BuiltCase build_setup(const Case& c) {
   setup.walls = std::move(filling.walls);
   for (const WallSpec& wall : c.walls)
     setup.bodies.push_back({wall.name, wall.slip, wall.slip_length, wall.contact_angle, wall.tension_limit,
-                            wall.surface, wall.motion});
+                            wall.surface, wall.motion, wall.thermal});
   add_openings(c, filling.inlets, setup);
+  setup.thermal = c.thermal;
   setup.domain = c.domain;
   setup.end_time = c.output.end_time;
   if (c.dimensions == 2) setup.domain.lower.y = -0.5 * c.spacing, setup.domain.upper.y = 0.5 * c.spacing;

@@ -101,6 +101,7 @@ void warn_of_missed_plane(const MeasureSpec& measure, std::vector<std::string>& 
       return;
     case MeasureType::volume:
     case MeasureType::mixing:
+    case MeasureType::solid:
       if (measure.min.y > 0 || measure.max.y < 0)
         warn("has y from " + show(measure.min.y) + " to " + show(measure.max.y) + " m");
       return;
@@ -114,6 +115,7 @@ void warn_of_missed_plane(const MeasureSpec& measure, std::vector<std::string>& 
     case MeasureType::flux:  // at y = 0 wherever its center is
     case MeasureType::contact:
     case MeasureType::residence:
+    case MeasureType::heat:
       return;
   }
 }

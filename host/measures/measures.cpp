@@ -8,6 +8,7 @@
 #include "host/measures/measure_flux.hpp"
 #include "host/measures/measure_force.hpp"
 #include "host/measures/measure_front.hpp"
+#include "host/measures/measure_heat.hpp"
 #include "host/measures/measure_level.hpp"
 #include "host/measures/measure_mixing.hpp"
 #include "host/measures/measure_residence.hpp"
@@ -21,7 +22,7 @@ namespace {
 // The setup lists what is measured by kind, in the order of the case; this counts along.
 struct Counts {
   std::size_t fronts = 0, planes = 0, boxes = 0, lines = 0, levels = 0;
-  std::size_t fluxes = 0, surfaces = 0, contacts = 0, residences = 0;
+  std::size_t fluxes = 0, surfaces = 0, contacts = 0, residences = 0, solids = 0;
 };
 
 std::unique_ptr<Measure> make_probe(const MeasureSpec& spec, const SimulationSetup& setup, Counts& next) {
@@ -34,6 +35,10 @@ std::unique_ptr<Measure> make_probe(const MeasureSpec& spec, const SimulationSet
       return std::make_unique<MixingMeasure>(spec, setup);
     case MeasureType::contact:
       return std::make_unique<ContactMeasure>(spec, setup, next.contacts++);
+    case MeasureType::solid:
+      return std::make_unique<SolidMeasure>(spec, setup, next.solids++);
+    case MeasureType::heat:
+      return std::make_unique<HeatMeasure>(spec, setup);
     default:
       return std::make_unique<ResidenceMeasure>(spec, setup, next.residences++);
   }

@@ -8,13 +8,23 @@
 namespace slagflow {
 namespace {
 
-std::vector<std::string> profile_columns() {
-  return {"time_s",         "distance_m",     "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s",
-          "shear_rate_1_s", "viscosity_Pa_s", "fill"};
+std::vector<std::string> profile_columns(bool heat) {
+  std::vector<std::string> columns{
+      "time_s",         "distance_m",     "x_m", "y_m", "z_m", "vx_m_s", "vy_m_s", "vz_m_s",
+      "shear_rate_1_s", "viscosity_Pa_s", "fill"};
+  if (heat) columns.insert(columns.end(), {"temperature_K", "solid_fraction"});
+  return columns;
 }
 
-std::vector<std::string> columns_of(MeasureType type) {
-  return type == MeasureType::profile ? profile_columns() : surface_columns();
+std::vector<std::string> columns_of(MeasureType type, bool heat) {
+  return type == MeasureType::profile ? profile_columns(heat) : surface_columns();
+}
+
+std::vector<double> profile_line(double time, const ProfilePoint& p, bool heat) {
+  std::vector<double> line{time,         p.distance,   p.position.x, p.position.y, p.position.z, p.velocity.x,
+                           p.velocity.y, p.velocity.z, p.shear_rate, p.viscosity,  p.fill};
+  if (heat) line.insert(line.end(), {p.temperature, p.solid_fraction});
+  return line;
 }
 
 }  // namespace
@@ -39,20 +49,20 @@ std::string ProfileMeasure::line() const {
 std::string profile_file(const std::string& name) { return "profile_" + name + ".csv"; }
 
 ProfileFiles::ProfileFiles(const Case& c, const SimulationSetup& setup, const std::string& folder)
-    : surfaces_(setup.surfaces) {
+    : surfaces_(setup.surfaces), heat_(setup.thermal.on) {
   for (const MeasureFile& file : measure_files(c))
-    files_.emplace_back(folder + "/" + file.name, columns_of(file.type));
+    files_.emplace_back(folder + "/" + file.name, columns_of(file.type, heat_));
 }
 
 ProfileFiles::ProfileFiles(const Case& c, const SimulationSetup& setup, const std::string& folder,
                            const std::vector<std::int64_t>& ends)
-    : surfaces_(setup.surfaces) {
+    : surfaces_(setup.surfaces), heat_(setup.thermal.on) {
   const std::vector<MeasureFile> files = measure_files(c);
   if (ends.size() != 2 * files.size())
     throw Error("checkpoint: " + std::to_string(ends.size()) + " numbers for " +
                 std::to_string(files.size()) + " profiles");
   for (std::size_t k = 0; k < files.size(); ++k)
-    files_.emplace_back(folder + "/" + files[k].name, columns_of(files[k].type),
+    files_.emplace_back(folder + "/" + files[k].name, columns_of(files[k].type, heat_),
                         HistoryEnd{ends[2 * k], ends[2 * k + 1]});
 }
 
@@ -60,9 +70,7 @@ void ProfileFiles::write(const Simulation& simulation) {
   const double time = simulation.time();
   const std::size_t profiles = files_.size() - surfaces_.size();
   for (std::size_t k = 0; k < profiles; ++k)
-    for (const ProfilePoint& p : simulation.profile(k))
-      files_[k].write({time, p.distance, p.position.x, p.position.y, p.position.z, p.velocity.x, p.velocity.y,
-                       p.velocity.z, p.shear_rate, p.viscosity, p.fill});
+    for (const ProfilePoint& p : simulation.profile(k)) files_[k].write(profile_line(time, p, heat_));
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
     for (const std::vector<double>& line : surface_lines(time, surfaces_[k], simulation.surface(k)))
       files_[profiles + k].write(line);

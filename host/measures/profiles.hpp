@@ -52,6 +52,7 @@ class ProfileFiles {
 
  private:
   std::vector<SurfaceSetup> surfaces_;
+  bool heat_;
   std::vector<HistoryFile> files_;
 };
 

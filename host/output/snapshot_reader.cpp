@@ -1,5 +1,7 @@
 #include "host/output/snapshot_reader.hpp"
 
+#include <algorithm>
+
 #include "backend/error.hpp"
 #include "host/output/hdf5_handles.hpp"
 #include "host/output/vtkhdf.hpp"
@@ -67,6 +69,9 @@ FluidSnapshot read_snapshot(const std::string& path, std::size_t number) {
   rows.read("Density", 1, H5T_NATIVE_FLOAT, snapshot.density);
   rows.read("Fluid", 1, H5T_NATIVE_UINT8, snapshot.fluid);
   rows.read("ParticleId", 1, H5T_NATIVE_INT64, snapshot.id);
+  const std::vector<std::string> arrays = hdf5::members(file, "/VTKHDF/PointData");
+  snapshot.heat = std::find(arrays.begin(), arrays.end(), "Temperature") != arrays.end();
+  if (snapshot.heat) rows.read("Temperature", 1, H5T_NATIVE_FLOAT, snapshot.temperature);
   return snapshot;
 }
 

@@ -25,11 +25,18 @@ struct Arrays {
   }
 };
 
+template <class Snapshot>
+std::vector<ArrayInfo> infos_of(bool heat) {
+  Snapshot snapshot;
+  snapshot.heat = heat;
+  return Arrays(snapshot).infos;
+}
+
 }  // namespace
 
 SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes)
-    : particles_(folder + "/particles.vtkhdf", Arrays(FluidSnapshot{}).infos) {
-  if (sizes.walls > 0) walls_.emplace(folder + "/walls.vtkhdf", Arrays(WallSnapshot{}).infos);
+    : particles_(folder + "/particles.vtkhdf", infos_of<FluidSnapshot>(sizes.heat)) {
+  if (sizes.walls > 0) walls_.emplace(folder + "/walls.vtkhdf", infos_of<WallSnapshot>(sizes.heat));
 }
 
 SnapshotWriter::SnapshotWriter(const std::string& folder, SnapshotSizes sizes,

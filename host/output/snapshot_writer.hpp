@@ -28,6 +28,7 @@ struct Snapshot {
 struct SnapshotSizes {
   std::size_t particles = 0;  // at the start
   std::size_t walls = 0;      // 0: walls.vtkhdf is not written
+  bool heat = false;          // whether temperatures are
 };
 
 // The number of time steps that the files hold already.

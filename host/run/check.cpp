@@ -10,6 +10,7 @@
 
 #include "backend/error.hpp"
 #include "fluid/constants.hpp"
+#include "heat/heat.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/geometry.hpp"
 #include "host/geometry/inlet_face.hpp"
@@ -130,6 +131,7 @@ TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
                "numerics.density_diffusion, which is stable up to about 0.28/courant without shorter steps");
   step.limit(capillary_time_step(setup), "courant sqrt(rho spacing^3 / (2 pi surface tension))");
   if (setup.end_time > 0) step.limit(0.5 * setup.end_time, "half of output.end_time");
+  step.limit(conduction_time_step(setup), "conduction of heat, a quarter of rho c spacing^2 / k");
   if (numerics.max_time_step > 0) step.limit(numerics.max_time_step, "numerics.max_time_step");
   if (numerics.viscous_step == ViscousStepping::explicit_step)
     for (const FluidSetup& fluid : setup.fluids)
@@ -168,6 +170,7 @@ constexpr double most_steps = 1e9;
 
 void add_warnings(CaseCheck& check, const BuiltCase& built) {
   check.warnings = built.warnings;
+  check.warnings.insert(check.warnings.end(), check.heat.warnings.begin(), check.heat.warnings.end());
   if (check.mach > 0.15)
     check.warnings.push_back(
         format("the Mach number %.2g exceeds 0.15: the fluid will be compressible; raise "
@@ -312,6 +315,7 @@ CaseCheck check_case(const BuiltCase& built, const MachineSpeed& machine) {
   check.machine = machine;
   add_facts(check, built);
   add_costs(check, built);
+  check.heat = check_heat(built, check.speed, check.depth);
   add_warnings(check, built);
   check.advice = advice(check, built);
   return check;

@@ -7,6 +7,7 @@
 
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/summary_json.hpp"
+#include "host/run/check_heat.hpp"
 #include "host/run/machine_speed.hpp"
 #include "host/run/start_facts.hpp"
 
@@ -44,10 +45,11 @@ struct CaseCheck {
   std::vector<FluidNumbers> fluids;       // numbers that need a speed are not-a-number where there is none
   double sound_speed = 0, mach = 0;       // [m/s], U / sound speed
   std::vector<std::string> sound_speeds;  // a line for each term of the automatic one
-  double froude = 0;                      // U / sqrt(g H)
-  double viscosity_correction = 0;        // C of equation (7)
-  std::vector<FluidPiece> pieces;         // of the fluid at the start, the largest first
-  double fluid_across = 0;                // particles across the thinnest of them; not-a-number without any
+  HeatCheck heat;
+  double froude = 0;                // U / sqrt(g H)
+  double viscosity_correction = 0;  // C of equation (7)
+  std::vector<FluidPiece> pieces;   // of the fluid at the start, the largest first
+  double fluid_across = 0;          // particles across the thinnest of them; not-a-number without any
   ThinnestWall wall;
   std::string extents;              // of the domain
   std::vector<std::string> files;   // STL files, and what they reach over

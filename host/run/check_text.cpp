@@ -77,6 +77,7 @@ std::string to_text(const CaseCheck& c) {
   for (const std::string& line : c.sound_speeds) text += "                 " + line + "\n";
   text += format("viscosity        corrected by %.4f for the bias of the operator at this support ratio\n",
                  c.viscosity_correction);
+  text += to_text(c.heat);
   text += "exits            " + c.exits + "\n";
   text += format("memory           about %.3g MB\n", c.memory / 1e6);
   text += format("output           about %.3g MB in %.0f snapshots\n", c.output / 1e6, c.snapshots);
@@ -119,6 +120,7 @@ Json to_json(const CaseCheck& c) {
              c.machine.particle_steps > 0 ? c.machine.particle_steps : particle_steps_per_second);
   result.set("measured_utc", c.machine.made).set("gpu_model_run_time", c.gpu_time);
   result.set("advice", lines(c.advice));
+  if (c.heat.on) result.set("heat", to_json(c.heat));
   return result.set("exact_yield", c.exact_yield).set("warnings", lines(c.warnings));
 }
 

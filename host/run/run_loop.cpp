@@ -68,7 +68,8 @@ Run::Run(BuiltCase built, std::string folder, Log& log, InterruptGuard& signals)
       start_time_(built_.setup.start_time),
       measures_(built_.resolved, built_.setup),
       losses_(built_.resolved),
-      openings_(built_.setup) {
+      openings_(built_.setup),
+      heat_(built_.setup) {
   counts_.particles_start = static_cast<std::int64_t>(built_.setup.particles.position.size());
   counts_.walls = static_cast<std::int64_t>(built_.setup.walls.position.size());
   particles_now_ = counts_.particles_start;
@@ -150,10 +151,12 @@ void Run::start() {
 void Run::open_outputs() {
   std::vector<std::string> columns = history_columns();
   for (const std::string& name : openings_.columns()) columns.push_back(name);
+  for (const std::string& name : heat_.columns()) columns.push_back(name);
   for (const std::string& name : measures_.columns()) columns.push_back(name);
   const std::string history = folder_ + "/history.csv";
   const SnapshotSizes sizes{static_cast<std::size_t>(counts_.particles_start),
-                            built_.resolved.output.walls ? static_cast<std::size_t>(counts_.walls) : 0};
+                            built_.resolved.output.walls ? static_cast<std::size_t>(counts_.walls) : 0,
+                            built_.resolved.thermal.on};
   if (!resumed_) {
     history_.emplace(history, columns);
     snapshots_.emplace(folder_, sizes, provenance_.attributes());
@@ -217,6 +220,7 @@ void Run::record() {
   thin_sheets_.look(totals, simulation_->time());
   std::vector<double> values = history_values(*simulation_, totals);
   for (const double value : openings_.values(totals)) values.push_back(value);
+  for (const double value : heat_.values(totals)) values.push_back(value);
   const auto read = [this]() -> const FluidSnapshot& {
     simulation_->read(measured_);
     return measured_;
@@ -327,6 +331,7 @@ void Run::tell_losses() {
   if (!simulation_) return;
   try {
     tell(openings_.lines(totals()));
+    tell(heat_.lines(totals()));
     const std::int64_t start = all_particles(totals());
     tell(losses_.lines(totals(), start));
     for (const std::string& warning : losses_.warnings(totals(), start)) log_.warning(warning);
@@ -361,7 +366,8 @@ void Run::write_summary() {
   Json summary = summary_of_case(built_.resolved, provenance_, counts_);
   try {
     if (simulation_) add_results(summary, *simulation_, totals(), counts_);
-    if (simulation_) losses_.add_to(summary, totals()), openings_.add_to(summary, totals());
+    if (simulation_)
+      losses_.add_to(summary, totals()), openings_.add_to(summary, totals()), heat_.add_to(summary, totals());
     thin_sheets_.add_to(summary);
   } catch (const std::exception& error) {
     log_.warning(std::string("the summary lacks the results: ") + error.what());

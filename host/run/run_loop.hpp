@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/geometry/setup_builder.hpp"
+#include "host/measures/heat_report.hpp"
 #include "host/measures/losses.hpp"
 #include "host/measures/measures.hpp"
 #include "host/measures/openings.hpp"
@@ -100,6 +101,7 @@ class Run {
   Measures measures_;
   Losses losses_;
   Openings openings_;
+  HeatReport heat_;
   ThinSheets thin_sheets_;
   std::string ended_early_;  // why, if it did
   std::optional<Checkpoint> resumed_;

@@ -88,6 +88,19 @@ std::vector<int> numbers_of(const Case& before, const Case& after) {
   return numbers;
 }
 
+// Fluid of a state without heat has in a case with heat the temperature that the case gives it.
+void add_temperatures(const Case& c, FluidParticles& p) {
+  if (!c.thermal.on || !p.temperature.empty() || !p.memory.enthalpy.empty()) return;
+  for (const std::uint8_t kind : p.fluid) {
+    const auto region = std::find_if(c.regions.begin(), c.regions.end(),
+                                     [&](const RegionSpec& r) { return r.fluid == kind; });
+    if (region == c.regions.end())
+      throw InputError(c.file + ": the state has no temperatures, and the case has no region of fluid '" +
+                       c.fluids[kind].name + "': allowed: one, whose temperature the fluid takes");
+    p.temperature.push_back(region->temperature);
+  }
+}
+
 }  // namespace
 
 void start_from(const StartState& start, BuiltCase& built) {
@@ -114,6 +127,7 @@ void start_from(const StartState& start, BuiltCase& built) {
     p.fluid[i] = static_cast<std::uint8_t>(numbers[kind]);
     p.pressure.push_back(square(after.numerics.sound_speed) * changed);
   }
+  add_temperatures(after, p);
   built.setup.particles = std::move(p);
   built.setup.start_time = state.time, built.setup.last_step = state.last_step;
 }

@@ -1,0 +1,158 @@
+// A step of conduction against the oracle: between particles, at walls, at free surfaces.
+#include <gtest/gtest.h>
+
+#include "core/scene.hpp"
+#include "fluid/lattice_viscosity.hpp"
+#include "heat/heat.hpp"
+#include "heat/wall_sites.hpp"
+#include "reference_heat.hpp"
+
+namespace slagflow {
+namespace {
+
+using namespace testing_tools;
+
+// With conductivities that change with temperature, and walls of three kinds: a thick floor behind a
+// resistance, a side that is held, a plate with a flux.
+class Conduction : public testing::TestWithParam<SceneOptions> {
+ protected:
+  static constexpr double dt = 0.5, threshold = 0.12;
+
+  Conduction() : scene_(GetParam()), heat_(scene_.context) {
+    scene_.upload();
+    set_fluids();
+    set_walls();
+    SimulationSetup& s = scene_.setup;
+    s.thermal = {true, 300, 25, true, false, 1700};
+    Random random(7);
+    for (std::size_t i = 0; i < scene_.world.particles.size(); ++i)
+      oracle_.temperature.push_back(random.uniform(1200, 1700));
+    for (const Index id : download(scene_.context, scene_.fluid.id.span())) {  // as they are sorted
+      const auto i = static_cast<std::size_t>(id);
+      s.particles.fluid.push_back(static_cast<std::uint8_t>(scene_.world.particles[i].fluid));
+      s.particles.temperature.push_back(oracle_.temperature[i]);
+    }
+    heat_.start(s, {}, scene_.fluid);
+    make_oracle();
+  }
+
+  void set_fluids() {
+    MaterialSetup m;
+    m.heat_capacity = {{300, 1000}}, m.conductivity = {{300, 1}, {1500, 1.4}, {1650, 0.7}};
+    m.emissivity = 0.8;
+    scene_.setup.fluids[0].material = m;
+    m.conductivity = {{300, 3}, {2000, 5}}, m.emissivity = 0;
+    scene_.setup.fluids[1].material = m;
+  }
+
+  void set_walls() {
+    SimulationSetup& s = scene_.setup;
+    s.bodies.resize(3);
+    s.bodies[0].thermal = {WallHeat::semi_infinite, 400, 0, 800, 40, 7850, 550};
+    s.bodies[1].thermal = {WallHeat::temperature, 900, 0, 0, 0, 0, 0};
+    s.bodies[2].thermal = {WallHeat::flux, 0, 5e4, 0, 0, 0, 0};
+    for (const reference::Wall& w : scene_.world.walls) {
+      s.walls.position.push_back({w.x.x, w.x.y, w.x.z});
+      s.walls.normal.push_back({w.normal.x, w.normal.y, w.normal.z});
+      s.walls.depth.push_back(w.depth);
+      s.walls.body.push_back(w.back_depth > 0 ? 2 : w.normal.z > 0 ? 0 : 1);
+    }
+  }
+
+  void make_oracle() {
+    const SimulationSetup& s = scene_.setup;
+    oracle_.world = scene_.world;
+    for (const FluidSetup& f : s.fluids) {
+      oracle_.conductivity.push_back(f.material.conductivity);
+      oracle_.emissivity.push_back(f.material.emissivity);
+    }
+    oracle_.ambient = 300, oracle_.transfer = 25;
+    oracle_.factor = 1 / lattice_viscosity(ViscousOperator::laplacian, {}, s.support_ratio, s.dimensions);
+    oracle_.bodies = {
+        {reference::HeatWall::thick, 400, 0, 800, 1.752 / 2.752 * 40 * 7850 * 550, 7850.0 * 550 * 1e-7},
+        {reference::HeatWall::held, 900, 0, 0, 0, 0},
+        {reference::HeatWall::flux, 0, 5e4, 0, 0, 0}};
+    const WallSites sites = wall_sites(s);
+    oracle_.site.assign(sites.of_wall.begin(), sites.of_wall.end());
+    oracle_.site_area = sites.area;
+    for (const std::uint8_t body : sites.body) oracle_.site_body.push_back(body);
+    oracle_.outer_deficit = deficit_of_a_plane();
+  }
+
+  // Of the top particle of a lattice that fills a half-space.
+  double deficit_of_a_plane() const {
+    const auto w = scene_.world.smoothing();
+    const int across = scene_.world.dimensions == 3 ? 3 : 0;
+    double fill = 0;
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -across; j <= across; ++j)
+        for (int k = -3; k <= 0; ++k)
+          fill += scene_.world.wall_volume() * w.value(Scene::spacing * std::sqrt(i * i + j * j + k * k));
+    return 1 - fill;
+  }
+
+  std::vector<double> changes() {
+    const std::vector<double> before = scene_.by_id(Span<const double>(scene_.fluid.enthalpy.span()));
+    heat_.conduct(scene_.pairs(), scene_.wall_to_fluid.view(), dt, scene_.fluid);
+    std::vector<double> after = scene_.by_id(Span<const double>(scene_.fluid.enthalpy.span()));
+    for (std::size_t i = 0; i < after.size(); ++i) after[i] -= before[i];
+    return after;
+  }
+
+  Scene scene_;
+  Heat heat_;
+  reference::HeatWorld oracle_;
+};
+
+TEST_P(Conduction, AgreesWithTheOracle) {
+  const std::vector<double> change = changes();
+  const auto walls = oracle_.from_walls();
+  int open = 0;
+  double surface = 0;
+  for (std::size_t i = 0; i < change.size(); ++i) {
+    if (std::fabs(oracle_.deficit(i) - threshold) < 1e-5) continue;  // either is right
+    const double lost = oracle_.lost(i, threshold);
+    const reference::HeatWorld::Flow conducted = oracle_.conducted(i);
+    const double power = conducted.value + walls.particle[i] - lost;
+    const double size = std::fabs(walls.particle[i]) + lost + conducted.size;
+    const double mass = static_cast<double>(static_cast<Real>(scene_.world.particles[i].mass));
+    EXPECT_NEAR(change[i] * mass / dt, power, 2e-4 * size) << "particle " << i;
+    open += lost > 0, surface += lost * dt;
+  }
+  EXPECT_GT(open, 0);
+  DiagnosticScratch scratch(scene_.context);
+  const HeatBalance balance = heat_.balance(scene_.fluid, scene_.fluids.span(), scratch);
+  EXPECT_NEAR(balance.surface, surface, 2e-4 * surface);
+  double all = 0;
+  for (std::size_t body = 0; body < oracle_.bodies.size(); ++body) {
+    double taken = 0;
+    for (std::size_t s = 0; s < walls.site.size(); ++s)
+      if (oracle_.site_body[s] == static_cast<int>(body)) taken -= walls.site[s] * dt;
+    EXPECT_NEAR(balance.walls[body], taken, 2e-4 * std::fabs(taken) + 1e-9) << "wall " << body;
+    all += std::fabs(taken);
+  }
+  EXPECT_EQ(all > 0, !scene_.world.walls.empty());
+  // What the fluid lost is what was told to have left it.
+  EXPECT_NEAR(balance.error(), 0, 1e-6 * (surface + all));
+}
+
+TEST_P(Conduction, KeepsTheHeatOfFluidBetweenParticles) {
+  SimulationSetup& s = scene_.setup;
+  s.thermal.surface_heat_transfer = 0, s.thermal.radiation = false;
+  for (WallBody& body : s.bodies) body.thermal = {};
+  Heat heat(scene_.context);
+  heat.start(s, {}, scene_.fluid);
+  DiagnosticScratch scratch(scene_.context);
+  for (int step = 1; step <= 10; ++step)
+    heat.conduct(scene_.pairs(), scene_.wall_to_fluid.view(), step * dt, scene_.fluid);
+  const HeatBalance balance = heat.balance(scene_.fluid, scene_.fluids.span(), scratch);
+  EXPECT_GT(balance.coolest, 1200);
+  EXPECT_LT(balance.hottest, 1700);
+  EXPECT_NEAR(balance.content, balance.start, 1e-9 * balance.start);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Conduction, testing::ValuesIn(all_scenes()),
+                         [](const auto& test) { return scene_name(test.param); });
+
+}  // namespace
+}  // namespace slagflow
