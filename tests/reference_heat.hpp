@@ -155,7 +155,7 @@ struct HeatWorld {
   }
 
   double deficit(std::size_t i) const {
-    const auto w = world.smoothing();
+    const SmoothingFunction w{Kernel::lucy, world.support, world.dimensions};
     double fill = world.particles[i].volume * w.value(0);
     for_fluid_pairs(world, i, [&](const Particle& o, Vec d) { fill += o.volume * w.value(length(d)); });
     for_wall_pairs(world, i, [&](const Wall&, Vec d) { fill += world.wall_volume() * w.value(length(d)); });

@@ -99,7 +99,7 @@ struct InFluid {
     add_fluid(i, sums);
     add_walls(i, sums);
     const Quad place = c.fluid.place[i];
-    const Real fill = total(sums.fill) + sums.wall_fill + place.w * c.flow.smoothing.value(Real(0));
+    const Real fill = total(sums.fill) + sums.wall_fill + place.w * step.constants.fill.value(Real(0));
     const double power = static_cast<double>(place.w * total(sums.conducted)) + sums.from_walls;
     const double by_surface = surface_power(i, place.w, Real(1) - fill);
     const auto mass = static_cast<double>(c.fluids[c.fluid.fluid[i]].mass);
@@ -128,7 +128,7 @@ struct InFluid {
         difference = select(same(c.fluid.fluid, j, c.fluid.fluid[i]), difference, mean * (other.x - own.x));
       }
       sums.conducted += conduction_weight(c, step.constants, r2) * volume * difference;
-      sums.fill += volume * c.flow.smoothing.value(r2);
+      sums.fill += volume * step.constants.fill.value(r2);
     }
   }
 
@@ -141,7 +141,7 @@ struct InFluid {
       const Vec3 d = box.separation(x, xyz(c.wall.place[w]));
       const Real r2 = dot(d, d);
       if (!(r2 < square(c.flow.support))) continue;
-      sums.wall_fill += c.flow.wall_volume * c.flow.smoothing.value(r2);
+      sums.wall_fill += c.flow.wall_volume * step.constants.fill.value(r2);
       const Index s = step.sites.count > 0 ? step.sites.of_wall[c.wall.id[w]] : Index(-1);
       if (s >= 0) sums.from_walls += static_cast<double>(wall_power(i, w, s));
     }

@@ -66,15 +66,14 @@ struct SetEntered {
 };
 
 // 1 - f of the outer layer of a plane lattice.
-double deficit_of_plane(const FlowConstants& flow) {
+double deficit_of_plane(const FlowConstants& flow, const Smoothing& smoothing) {
   const auto dx = static_cast<double>(flow.spacing), h = static_cast<double>(flow.support);
   const int reach = static_cast<int>(h / dx), across = flow.dimensions == 3 ? reach : 0;
   double fill = 0;
   for (int i = -reach; i <= reach; ++i)
     for (int j = -across; j <= across; ++j)
       for (int k = -reach; k <= 0; ++k)
-        fill += static_cast<double>(
-            flow.smoothing.value(static_cast<Real>(square(dx) * (i * i + j * j + k * k))));
+        fill += static_cast<double>(smoothing.value(static_cast<Real>(square(dx) * (i * i + j * j + k * k))));
   return 1 - fill * static_cast<double>(flow.wall_volume);
 }
 
@@ -188,7 +187,8 @@ void Heat::start(const SimulationSetup& s, const std::vector<double>& remembered
   constants_.factor = static_cast<Real>(2 / lattice_viscosity(ViscousOperator::laplacian,
                                                               {s.numerics.kernel, s.numerics.viscous_weight},
                                                               s.support_ratio, s.dimensions));
-  constants_.outer_deficit = static_cast<Real>(deficit_of_plane(flow));
+  constants_.fill = Smoothing(SmoothingKind::lucy, s.support_ratio * s.spacing, s.dimensions);
+  constants_.outer_deficit = static_cast<Real>(deficit_of_plane(flow, constants_.fill));
   constants_.least_deficit = Real(0.12);
   constants_.reference = static_cast<Real>(reference_);
   constants_.ambient = static_cast<Real>(s.thermal.ambient_temperature);

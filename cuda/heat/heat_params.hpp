@@ -30,7 +30,9 @@ struct SiteView {
 };
 
 struct HeatConstants {
-  Real factor = 0;            // 2 C_T: pair weight of the conduction operator
+  Real factor = 0;  // 2 C_T: pair weight of the conduction operator
+  // Of the fill of (H6): Lucy's, which tells a surface from disorder better than steeper functions.
+  Smoothing fill;
   Real outer_deficit = 1;     // D_1 of (H6)
   Real least_deficit = 0;     // below it no particle has a surface
   Real reference = 0;         // [K] of what is stored

@@ -81,7 +81,8 @@ class Conduction : public testing::TestWithParam<SceneOptions> {
 
   // Of the top particle of a lattice that fills a half-space.
   double deficit_of_a_plane() const {
-    const auto w = scene_.world.smoothing();
+    const reference::SmoothingFunction w{reference::Kernel::lucy, scene_.world.support,
+                                         scene_.world.dimensions};
     const int across = scene_.world.dimensions == 3 ? 3 : 0;
     double fill = 0;
     for (int i = -3; i <= 3; ++i)

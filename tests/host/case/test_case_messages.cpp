@@ -94,7 +94,7 @@ TEST(CaseMessages, AllKeysOfATableAreListedThoughItsTypeIsWrong) {
           HasSubstr("did you mean 'front'?"),
           HasSubstr(
               "'measure.0.direktion': unknown: did you mean 'direction'? allowed: name, type, "
-              "fraction, direction, position, lip, outward, bottom, min, max, start, end, "
+              "fraction, direction, position, lip, outward, bottom, min, max, solid_fraction, start, end, "
               "points, rows, across, wall, about, center, normal, height, width, up, fluid, cell, outlet")));
 }
 

@@ -49,11 +49,13 @@ TEST(Cases, EveryFileLoadsBuildsAsItsCommentSaysAndWritesItselfBack) {
     const std::string written = to_toml(built.resolved);
     EXPECT_EQ(to_toml(parse_case(written, "resolved.toml")), written);
     const SimulationSetup& setup = built.setup;
-    const auto forces = std::count_if(c.measures.begin(), c.measures.end(),
-                                      [](const MeasureSpec& m) { return m.type == MeasureType::force; });
+    const auto forces = std::count_if(c.measures.begin(), c.measures.end(), [](const MeasureSpec& m) {
+      return m.type == MeasureType::force || m.type == MeasureType::heat;
+    });
     EXPECT_EQ(setup.fronts.size() + setup.planes.size() + setup.boxes.size() + setup.lines.size() +
                   setup.levels.size() + setup.rectangles.size() + setup.surfaces.size() +
-                  setup.contacts.size() + setup.residences.size() + static_cast<std::size_t>(forces),
+                  setup.contacts.size() + setup.residences.size() + setup.solids.size() +
+                  static_cast<std::size_t>(forces),
               c.measures.size());
   }
   EXPECT_GE(files, 10);
