@@ -223,10 +223,10 @@ void Heat::launch_update(FluidArrays& fluid, const SolveState* solve) {
 
 void Heat::reserve(Index count) { lost_.resize(count); }
 
-bool Heat::due(double step_end, double dt, bool lists_are_new) const {
+bool Heat::due(double step_end, double dt, bool asked) const {
   constexpr double share = 0.1;
   if (!on_ || !(step_end > last_time_)) return false;
-  return lists_are_new || step_end + dt - last_time_ > share * longest_step_;
+  return asked || step_end + dt - last_time_ > share * longest_step_;
 }
 
 SiteView Heat::sites() const {

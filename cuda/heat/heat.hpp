@@ -24,9 +24,9 @@ class Heat {
   bool any() const { return on_; }
 
   double longest_step() const { return longest_step_; }
-  // Conduction is due when lists were built anew, or when the step after this one would end more than a tenth
-  // of longest_step() after the last time. It is taken to the end of the step.
-  bool due(double step_end, double dt, bool lists_are_new) const;
+  // Conduction is due when it is `asked` for, or when the step after this one would end more than a tenth of
+  // longest_step() after the last time. It is taken to the end of the step.
+  bool due(double step_end, double dt, bool asked) const;
   // (H3), (H4), (H5), (H7) since the last time, of the particles as the pairs see them.
   void conduct(const PairContext&, const ListView& wall_to_fluid, double step_end, FluidArrays&);
 
