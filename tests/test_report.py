@@ -9,7 +9,7 @@ from test_surface import SurfaceCase
 
 import numpy as np
 from plotting import report
-from plotting.run_folder import RunFolder
+import slagflow
 
 LOG = """warning: early one
 end: 100.0 %  t 0.1 s
@@ -64,7 +64,7 @@ class Report(SurfaceCase):
     def test_lines_of_the_end_are_told_and_warnings_apart(self):
         folder = self.make_run()
         (folder / "log.txt").write_text(LOG)
-        told, warnings = report.lines_of_the_end(RunFolder(folder))
+        told, warnings = slagflow.open(folder).told()
         self.assertEqual(told, ["oil (front): arrived after 0.05 s", "no particle left the domain"])
         self.assertEqual(warnings, ["early one", "a <b>bold</b> warning"])
 

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from plotting.run_folder import RunFolderError
+import slagflow
 
 # Units by steps in which an axis may be scaled, the largest first.
 LENGTH = (("km", 1e3), ("m", 1), ("mm", 1e-3))
@@ -120,10 +120,10 @@ def draw_panel(axes, time, title, columns, unit, size):
 
 
 def draw(run, path):
-    """Writes the picture: a panel for each kind of quantity that the history has. Throws RunFolderError."""
-    columns = run.history()
+    """Writes the picture: a panel for each kind of quantity that the history has. Throws slagflow.RunError."""
+    columns = run.columns()
     if "time_s" not in columns:
-        raise RunFolderError(f"{run.path / 'history.csv'} has no column time_s")
+        raise slagflow.RunError(f"{run.path / 'history.csv'} has no column time_s")
     time = columns.pop("time_s")
     panels = panels_of(columns)
     lines = max(1, (len(panels) + 1) // 2)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from plotting import history, surface
-from plotting.run_folder import RunFolder, RunFolderError
+import slagflow
 
 MOST_BYTES = 12e6  # of the meshes over time, before they are packed
 MOST_TIMES = 24
@@ -98,18 +98,8 @@ def stress(fluid, rate):
     return None
 
 
-def lines_of_the_end(run):
-    """What the run printed at its end, and its warnings."""
-    log = run.path / "log.txt"
-    lines = log.read_text(encoding="utf-8", errors="replace").splitlines() if log.is_file() else []
-    ends = [k for k, line in enumerate(lines) if line.startswith("end:")]
-    told = lines[ends[-1] + 1:] if ends else []
-    warnings = list(dict.fromkeys(line.removeprefix("warning: ") for line in lines if line.startswith("warning: ")))
-    return [line for line in told if line and not line.startswith(("warning: ", "results in"))], warnings
-
-
 def trust(run):
-    s = run.summary()
+    s = run.summary
     counts, solver, walls = s.get("particles", {}), s.get("viscous", {}), s.get("in_walls", {})
     rows = [("spacing", f"{1000 * run.spacing:.4g} mm"), ("particles", number(counts["fluid"]) + " of fluid" if counts.get("fluid") else ""),
             ("steps", number(s["steps"]) if "steps" in s else ""),
@@ -123,7 +113,7 @@ def trust(run):
 
 
 def provenance(run):
-    s = run.summary()
+    s = run.summary
     names = (("version", "version"), ("commit", "commit"), ("compiler", "compiler"), ("backend", "backend"), ("device", "device"), ("threads", "threads"),
              ("started", "started_utc"), ("ended", "ended_utc"), ("wall time [s]", "wall_time"), ("from", "from"))
     return [(name, text(number(s[key]) if isinstance(s[key], float) else s[key])) for name, key in names if s.get(key) not in (None, "")]
@@ -140,8 +130,8 @@ def plots(run, graph):
     """The measures and the balances over time, then the flow curves."""
     parts = []
     try:
-        columns = run.history()
-    except RunFolderError:
+        columns = run.columns()
+    except slagflow.RunError:
         columns = {}
     time = columns.pop("time_s", None)
     for title, chosen, unit, size in history.panels_of(columns) if time is not None else []:
@@ -212,8 +202,8 @@ def page(run, colour, picture):
     """The whole file as text."""
     k3d, graph = tools()
     view, times = scene(run, colour, k3d)
-    told, warnings = lines_of_the_end(run)
-    summary = run.summary()
+    told, warnings = run.told()
+    summary = run.summary
     status = "" if summary.get("status") in (None, "done") else f" ({summary['status']})"
     image = base64.b64encode(picture.read_bytes()).decode() if picture else ""
     parts = [f"<h1>{text(run.title.replace('_', ' '))}</h1><p class='lead'>{text(run.case.get('case', {}).get('description', ''))}{text(status)}</p>"]
@@ -242,10 +232,10 @@ def main():
     arguments = parser.parse_args()
     try:
         surface.tools(), tools()
-        run = RunFolder(arguments.folder)
+        run = slagflow.open(arguments.folder)
         picture = arguments.folder / "pictures/surface.png"
         arguments.output.write_text(page(run, arguments.colour, picture if picture.is_file() else None), encoding="utf-8")
-    except (ReportError, surface.SurfaceError, RunFolderError, OSError) as error:
+    except (ReportError, surface.SurfaceError, slagflow.RunError, OSError) as error:
         print(error)
         return 1
     except KeyError as error:

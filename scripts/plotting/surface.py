@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 
-from plotting.run_folder import RunFolder, RunFolderError
+import slagflow
 
 WIDTH, DPI = 1600, 200  # pixels of a view; of the figure an inch
 HEAD, FOOT, ROW_GAP, TALLEST, NARROWEST = 0.75, 0.5, 0.3, 6.0, 4.6  # inches
@@ -180,7 +180,7 @@ def cropped(pictures):
 
 
 def caption(run):
-    counts = run.summary().get("particles", {})
+    counts = run.summary.get("particles", {})
     parts = [f"{name}: {words}" for name, words in run.fluids_in_words().items()]
     parts.append(f"spacing {1000 * run.spacing:.3g} mm")
     if counts.get("fluid"):
@@ -289,8 +289,8 @@ def main():
     arguments = parser.parse_args()
     try:
         tools()
-        draw([RunFolder(folder) for folder in arguments.folders], arguments.times, arguments.colour, arguments.picture)
-    except (SurfaceError, RunFolderError, OSError) as error:
+        draw([slagflow.open(folder) for folder in arguments.folders], arguments.times, arguments.colour, arguments.picture)
+    except (SurfaceError, slagflow.RunError, OSError) as error:
         print(error)
         return 1
     except KeyError as error:
