@@ -12,7 +12,8 @@ from test_plot import HISTORY, PLOT, PROJECT, SPACING, write_vtkhdf
 import h5py
 import matplotlib.image
 import numpy as np
-from plotting import surface
+from plotting import sheet, surface, walls
+from plotting.quantity import Quantity, ages
 import slagflow
 
 PYTHON = PROJECT / ".venv/bin/python"
@@ -20,7 +21,7 @@ SIDE = 8  # particles along the edge of the block
 
 
 def tools_are_there():
-    command = [PYTHON, "-c", "import pysplashsurf, pyvista"]
+    command = [PYTHON, "-c", "import pysplashsurf, pyvista, imageio_ffmpeg"]
     return PYTHON.exists() and subprocess.run(command, capture_output=True, check=False).returncode == 0
 
 
@@ -80,8 +81,8 @@ class Surface(SurfaceCase):
     def test_encloses_the_volume_of_the_particles(self):
         self.need_tools()
         folder = self.make_run()
-        code = (f"from pathlib import Path; from plotting import surface; import slagflow; "
-                f"r = slagflow.open(Path({str(folder)!r})); m = surface.Meshes(r, surface.Quantity(r, [1], 'speed')).fluid(1); "
+        code = (f"from pathlib import Path; from plotting import quantity, surface; import slagflow; "
+                f"r = slagflow.open(Path({str(folder)!r})); m = surface.Meshes(r, quantity.Quantity(r, [1], 'speed')).fluid(1); "
                 f"print(m.volume, *m.bounds, m.is_all_triangles, m['value'].max())")
         made = subprocess.run([PYTHON, "-c", code], cwd=PROJECT / "scripts", capture_output=True, text=True, check=True)
         words = made.stdout.split()
@@ -135,24 +136,24 @@ class Surface(SurfaceCase):
 
     def test_titles_are_the_keys_that_differ(self):
         runs = [slagflow.open(self.make_run(f"run{k}", viscosity=k + 1.0)) for k in range(2)]
-        self.assertEqual(surface.titles_of(runs), ["dynamic_viscosity = 1.0", "dynamic_viscosity = 2.0"])
-        self.assertEqual([Path(t).name for t in surface.titles_of([runs[0], runs[0]])], ["run0", "run0"])
+        self.assertEqual(sheet.titles_of(runs), ["dynamic_viscosity = 1.0", "dynamic_viscosity = 2.0"])
+        self.assertEqual([Path(t).name for t in sheet.titles_of([runs[0], runs[0]])], ["run0", "run0"])
 
     def test_fluids_that_runs_call_otherwise_have_all_names(self):
         one, other = (slagflow.open(self.make_run(name)) for name in ("one", "other"))
         del one.case["fluid"]["slag"]
         other.case["fluid"] = {"metal": {}, "slag": {}}
-        self.assertEqual(surface.fluid_names([one, other]), ["oil/metal", "slag"])
+        self.assertEqual(sheet.fluid_names([one, other]), ["oil/metal", "slag"])
 
     def test_slow_speeds_are_in_centimetres_and_the_caption_tells_the_fluids(self):
         run = slagflow.open(self.make_run(speed=0.2))
-        quantity = surface.Quantity(run, [1], "speed")
+        quantity = Quantity(run, [1], "speed")
         self.assertAlmostEqual(quantity.limits[1], 0.2, delta=0.01)
         quantity.share((0, 0.2))
         self.assertEqual((quantity.label, quantity.factor, quantity.limits), ("speed  [cm/s]", 100, (0, 20)))
         quantity.share((0, 2.0))
         self.assertEqual((quantity.label, quantity.limits), ("speed  [m/s]", (0, 2.0)))
-        self.assertEqual(surface.caption(run), "oil: newtonian, 900 kg/m³, 1 Pa s; slag: 2700 kg/m³; spacing 10 mm")
+        self.assertEqual(sheet.caption(run), "oil: newtonian, 900 kg/m³, 1 Pa s; slag: 2700 kg/m³; spacing 10 mm")
 
 
 if __name__ == "__main__":

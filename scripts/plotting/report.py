@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from plotting import history, surface
+from plotting.quantity import QUANTITIES, Quantity
 import slagflow
 
 MOST_BYTES = 12e6  # of the meshes over time, before they are packed
@@ -154,7 +155,7 @@ def scene(run, colour, k3d):
     """The view that turns and plays: an HTML page of its own, and its times."""
     last = len(run.fluid.times) - 1
     steps = sorted(set(np.linspace(0, last, min(MOST_TIMES, last + 1)).round().astype(int).tolist()))
-    quantity = surface.Quantity(run, steps, colour)
+    quantity = Quantity(run, steps, colour)
     quantity.share(quantity.limits)
     meshes, box = surface.Meshes(run, quantity, COARSE), surface.box_of([run], [steps])
     fluid, walls, size = {}, {}, 0
@@ -165,7 +166,7 @@ def scene(run, colour, k3d):
         if size * len(steps) <= MOST_BYTES or len(steps) <= 4:
             break
         steps = sorted(set(np.linspace(0, last, max(4, int(MOST_BYTES / size))).round().astype(int).tolist()))
-        quantity = surface.Quantity(run, steps, colour)
+        quantity = Quantity(run, steps, colour)
         quantity.share(quantity.limits)
         meshes.quantity = quantity
     for step in steps:
@@ -228,7 +229,7 @@ def main():
     parser = argparse.ArgumentParser(prog="plotting.report", description=__doc__)
     parser.add_argument("folder", type=Path)
     parser.add_argument("--output", type=Path, required=True)
-    parser.add_argument("--colour", choices=surface.QUANTITIES, default="speed")
+    parser.add_argument("--colour", choices=QUANTITIES, default="speed")
     arguments = parser.parse_args()
     try:
         surface.tools(), tools()
