@@ -156,5 +156,94 @@ class Surface(SurfaceCase):
         self.assertEqual(sheet.caption(run), "oil: newtonian, 900 kg/m³, 1 Pa s; slag: 2700 kg/m³; spacing 10 mm")
 
 
+class Walls(SurfaceCase):
+    def test_distances_are_those_of_the_shapes(self):
+        at = np.array([[0.0, 0, 0], [3, 0, 0], [0, 0, 3], [3, 0, 5]])
+        box = {"shape": "box", "min": [-1, -1, -1], "max": [1, 1, 1]}
+        cylinder = {"shape": "cylinder", "start": [0, 0, -2], "end": [0, 0, 2], "radius": 1}
+        cone = {"shape": "frustum", "start": [0, 0, 0], "end": [0, 0, 4], "start_radius": 1, "end_radius": 0}
+        prism = {"shape": "prism", "along": "y", "points": [[-1, -1], [1, -1], [1, 1], [0, 0.5], [-1, 1]], "from": -4, "to": 4}
+        for shape, wanted in ((box, [-1, 2, 2, np.hypot(2, 4)]), (cylinder, [-1, 2, 1, 3]),
+                              ({"shape": "sphere", "center": [0, 0, 0], "radius": 2}, [-2, 1, 1, np.sqrt(34) - 2]),
+                              ({"shape": "plane", "point": [0, 0, 1], "normal": [0, 0, 2]}, [-1, -1, 2, 4])):
+            np.testing.assert_allclose(walls.distance({"shapes": [shape]}, at), wanted, atol=1e-12)
+        edge = np.array([[0.5, 0, 2.0], [0.25, 0.0, 3.0], [0.5, 0, 1]])
+        np.testing.assert_allclose(walls.distance({"shapes": [cone]}, edge)[:2], 0, atol=1e-12)
+        np.testing.assert_allclose(walls.distance({"shapes": [prism]}, np.array([[0, 0, 0.5], [1, 1, 0], [0, 0, 0]])), [0, 0, -0.5], atol=1e-12)
+
+    def test_shapes_are_turned_taken_away_and_turned_inside_out(self):
+        beam = {"shape": "box", "min": [0, -1, -1], "max": [10, 1, 1], "translate": [1, 0, 0], "rotate": [0, 0, np.pi / 2]}
+        at = np.array([[0.0, 5, 0], [0, 0, 0], [5, 0, 0]])
+        np.testing.assert_allclose(walls.distance({"shapes": [beam]}, at), [-1, 1, np.hypot(4, 1)], atol=1e-12)
+        hole = {"shape": "sphere", "center": [0, 5, 0], "radius": 0.5}
+        np.testing.assert_allclose(walls.distance({"shapes": [beam], "subtract": [hole]}, at)[:1], 0.5, atol=1e-12)
+        np.testing.assert_allclose(walls.distance({"shapes": [beam | {"outside": True}]}, at), [1, -1, -np.hypot(4, 1)], atol=1e-12)
+        with self.assertRaises(walls.UnknownShape):
+            walls.distance({"shapes": [{"shape": "torus"}]}, at)
+
+    def test_the_pose_is_that_of_the_particles(self):
+        start = np.random.default_rng(1).random((20, 3))
+        turn, shift = walls.rotation([0.3, -1.2, 2.0]), np.array([1, 2, 3.0])
+        found = walls.pose(start, start @ turn.T + shift)
+        np.testing.assert_allclose(found[0], turn, atol=1e-12)
+        np.testing.assert_allclose(found[1], shift, atol=1e-12)
+
+    def test_meshes_have_the_size_of_the_shapes(self):
+        self.need_tools()
+        code = """
+import numpy as np, pyvista
+from plotting import walls
+view = np.array([[-1, -1, -1], [1.0, 1, 1]])
+two = [{"shape": "box", "min": [-0.5, -0.5, 0], "max": [0.5, 0.5, 0.25]}, {"shape": "box", "min": [-0.5, -0.5, -3], "max": [0.5, 0.5, 0]}]
+made = walls.contoured({"shapes": two}, view, 0.1, pyvista)
+print(made.volume, *made.bounds)
+sheet = pyvista.Plane(center=(0, 0, 0), direction=(0, 0, 1), i_size=2, j_size=1, i_resolution=4, j_resolution=2).triangulate()
+for side in ("back", "front", "middle"):
+    made = walls.plate(sheet, 0.2, side, pyvista)
+    print(made.is_manifold, abs(made.compute_normals(auto_orient_normals=True).volume), *made.bounds[4:])
+"""
+        said = subprocess.run([PYTHON, "-c", code], cwd=PROJECT / "scripts", capture_output=True, text=True, check=True).stdout.splitlines()
+        volume, *bounds = map(float, said[0].split())
+        self.assertAlmostEqual(volume, 1.25, delta=0.003)  # cut at the view's edge, one piece of two that touch
+        np.testing.assert_allclose(bounds, [-0.5, 0.5, -0.5, 0.5, -1, 0.25], atol=1e-5)
+        for line, bounds in zip(said[1:], ([-0.2, 0], [0, 0.2], [-0.1, 0.1])):
+            closed, volume, *found = line.split()
+            self.assertEqual(closed, "True")
+            self.assertAlmostEqual(float(volume), 0.4, delta=1e-5)
+            np.testing.assert_allclose(np.array(found, float), bounds, atol=1e-6)
+
+    def test_a_wall_before_the_fluid_is_a_veil_and_one_behind_hides_nothing(self):
+        self.need_tools()
+        folder = self.make_run()
+        case = (folder / "case.toml").read_text()
+        edge = SIDE * SPACING
+        with h5py.File(folder / "walls.vtkhdf", "a") as file:
+            file["VTKHDF/PointData/Wall"] = np.zeros(file["VTKHDF/NumberOfPoints"][0], np.uint8)
+        seen = {}
+        for name, low, high in (("before", [edge + 0.01, -1, -1], [1, 1, 1]), ("behind", [-1, -1, -1], [-0.01, 1, 1])):
+            (folder / "case.toml").write_text(case.replace("min = [0, 0, 0]", f"min = {low}, max = {high}"))
+            self.assertEqual(self.plot(folder, "--times", "0.1").returncode, 0)
+            pixels = matplotlib.image.imread(folder / "pictures/surface.png")[200:, :, :3]
+            spread = np.ptp(pixels, axis=2)
+            seen[name] = [int((spread > limit).sum()) for limit in (0.12, 0.6)]  # coloured at all, and fully
+        self.assertGreater(seen["before"][0], 0.8 * seen["behind"][0])
+        self.assertGreater(seen["behind"][1], 5 * max(seen["before"][1], 500))
+
+
+class Colours(SurfaceCase):
+    def test_residence_is_the_time_since_a_number_was_new(self):
+        times, newest = np.array([0.0, 1.0, 2.0]), np.array([9, 19, 39])
+        np.testing.assert_allclose(ages(np.array([0, 9, 19, 29, 39]), times, newest, 2), [2, 2, 1, 0.5, 0])
+
+    def test_temperature_is_in_degrees_celsius(self):
+        folder = self.make_run()
+        with h5py.File(folder / "particles.vtkhdf", "a") as file:
+            file["VTKHDF/PointData/Temperature"] = np.linspace(1573.15, 1673.15, 2 * SIDE**3)
+        quantity = Quantity(slagflow.open(folder), [0, 1], "temperature")
+        quantity.share(quantity.limits)
+        self.assertEqual(quantity.label, "temperature  [°C]")
+        np.testing.assert_allclose(quantity.limits, [1300, 1400], atol=0.5)
+
+
 if __name__ == "__main__":
     unittest.main()

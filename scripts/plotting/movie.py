@@ -23,10 +23,11 @@ QUALITY = "20"  # constant rate factor of H.264: 18 is taken for free of loss, 2
 
 
 def encoder():
-    """imageio_ffmpeg. Raises SurfaceError when it is missing."""
+    """imageio_ffmpeg. Raises SurfaceError when it, or the ffmpeg in it, is missing."""
     try:
         import imageio_ffmpeg
-    except ImportError as missing:
+        imageio_ffmpeg.get_ffmpeg_exe()
+    except (ImportError, RuntimeError) as missing:
         raise surface.SurfaceError(f"{missing}: `scripts/install --pictures` brings what encodes movies; scripts/plot DIR --movie makes a GIF without") from missing
     return imageio_ffmpeg
 

@@ -113,9 +113,11 @@ def contoured(wall, box, spacing, pyvista):
         return None
     mesh = grid.contour([AWAY * step], values, method="flying_edges")
     points = np.asarray(mesh.points, float)
-    here = far(points)
-    slope = np.stack([far(points + 1e-3 * step * axis) - here for axis in np.eye(3)], axis=1) / (1e-3 * step)
-    mesh.points = points - here[:, None] * slope
+    for _ in range(3):  # at an edge of the box one face after the other
+        here = far(points)
+        slope = np.stack([far(points + 1e-3 * step * axis) - here for axis in np.eye(3)], axis=1) / (1e-3 * step)
+        points = points - here[:, None] * slope
+    mesh.points = points
     return mesh
 
 
