@@ -153,5 +153,39 @@ class PythonPackage(unittest.TestCase):
         self.assertEqual(slagflow.__version__, wanted)
 
 
+NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
+
+
+class PythonPage(unittest.TestCase):
+    """The code of the page, block by block as in a notebook; blocks of text after them are what they print."""
+
+    PYTHON = PROJECT / ".venv/bin/python"
+    SLAGFLOW = PROJECT / "build/cpu/slagflow"
+
+    def need(self):
+        if not self.SLAGFLOW.is_file():
+            self.skipTest("build/cpu/slagflow is not built")
+        if subprocess.run([self.PYTHON, "-c", "import pandas"], capture_output=True, check=False).returncode if self.PYTHON.is_file() else True:
+            self.skipTest("pandas is not in .venv: scripts/install --tests")
+
+    def test_code_runs_and_prints_what_the_page_says(self):
+        self.need()
+        text = PAGE.read_text()
+        blocks = re.findall(r"^```(python)?\n(.*?)^```\n(?:\n```\n(.*?)^```)?", text, re.M | re.S)
+        code = [(body, said) for kind, body, said in blocks if kind == "python"]
+        self.assertGreater(len(code), 5)
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "cases").symlink_to(PROJECT / "cases")
+            program = "".join(f"{body}\nprint('---')\n" for body, _ in code)
+            environment = os.environ | {"PYTHONPATH": str(PROJECT / "scripts"), "SLAGFLOW_PROGRAM": str(self.SLAGFLOW)}
+            done = subprocess.run([self.PYTHON, "-c", program], cwd=folder, env=environment, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for (body, wanted), said in zip(code, done.stdout.split("---\n")):
+            if wanted:
+                self.assertEqual(NUMBER.sub("#", said), NUMBER.sub("#", wanted), body)
+                for found, number in zip(NUMBER.findall(said), NUMBER.findall(wanted)):
+                    self.assertLess(abs(float(found) - float(number)), 0.02 * max(1, abs(float(number))), body)
+
+
 if __name__ == "__main__":
     unittest.main()
