@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 LONGEST, MOST_SAMPLES = 110, 3e6  # samples along the longest side of what is shown; of all
+SPARED = 0.85  # of the triangles, those of flat faces first
 SHARP = 30.0  # degrees between faces that are shaded as an edge
 OFF, AWAY = 0.137, 0.75  # of a step: so that faces on round numbers do not lie on samples; outside of the shapes
 
@@ -118,7 +119,7 @@ def contoured(wall, box, spacing, pyvista):
         slope = np.stack([far(points + 1e-3 * step * axis) - here for axis in np.eye(3)], axis=1) / (1e-3 * step)
         points = points - here[:, None] * slope
     mesh.points = points
-    return mesh
+    return mesh.decimate_pro(SPARED, feature_angle=SHARP, preserve_topology=True)
 
 
 def plate(mesh, thickness, side, pyvista):

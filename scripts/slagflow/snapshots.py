@@ -113,8 +113,8 @@ class Snapshots(Sequence[Snapshot]):
 
     def _offsets(self, name: str) -> NDArray[np.int64]:
         path = f"Steps/PointDataOffsets/{name}"
-        return self._root[path][:] if path in self._root else self._starts
+        return np.asarray(self._root[path][:] if path in self._root else self._starts)
 
     def _part(self, data: Any, starts: NDArray[np.int64], step: int) -> NDArray[Any]:
         start = int(starts[step])
-        return data[start:start + self.count(step)]
+        return np.asarray(data[start:start + self.count(step)])
