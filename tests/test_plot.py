@@ -237,7 +237,7 @@ class Plot(unittest.TestCase):
         self.assertEqual(set(curves), {"a, jet", "b"})
         np.testing.assert_array_equal(curves["a, jet"], front)
 
-    def test_measures_have_panels_before_the_solver(self):
+    def test_measures_have_panels_and_the_solver_has_none(self):
         time, nothing = np.array([0.0, 1.0]), np.array([0.0, 0.0])
         panels = history.panels_of({
             "iterations": np.array([1.0, 2.0]), "a_front_m": 0.05 * time, "a_passed": 0.5 * time, "gate_flow_m3_s": 2e-3 * time,
@@ -245,11 +245,33 @@ class Plot(unittest.TestCase):
             "lid_pressure_y_N": 1e-3 * time, "lid_torque_z_Nm_m": 2e-5 * time, "kinetic_energy_J": 0.02 * time})
         self.assertEqual([(title, unit) for title, _, unit, _ in panels],
                          [("Front", "[mm]"), ("Passed share of the fluid", "[%]"), ("Flow rate", "[l/s]"), ("Volume", "[m³]"),
-                          ("Force", "[kN]"), ("Torque per width", "[µN m/m]"), ("Energy", "[mJ]"), ("Viscous solver", "iterations")])
+                          ("Force", "[kN]"), ("Torque per width", "[µN m/m]"), ("Energy", "[mJ]")])
         force = dict((title, columns) for title, columns, _, _ in panels)["Force"]
         self.assertEqual(list(force), ["lid_force_x_N"])  # y is nothing beside x
         np.testing.assert_allclose(force["lid_force_x_N"], 4e3 * time)
         self.assertEqual(history.label_of("lid_force_x_N"), "lid x")
+
+    def test_every_kind_of_measure_has_a_panel(self):
+        names = {"gate_flow_m3_s": "Flow rate", "held_m3": "Volume", "top_surface_m": "Level", "top_thickness_m": "Thickness of the fluid",
+                 "pool_highest_m": "Level", "pool_mean_thickness_m": "Thickness of the fluid", "pool_covered_share": "Touched or covered share",
+                 "weir_forward_kg": "Mass passed", "tap_mass_fed_kg": "Mass fed and taken", "lining_wetted_share": "Touched or covered share",
+                 "lining_largest_pressure_Pa": "Pressure on a wall", "out_p50_s": "Time since it came in", "out_inside_mean_s": "Time since it came in",
+                 "stir_index": "Mixing index", "max_temperature_K": "Temperature", "heat_to_pot_J": "Heat", "lid_pressure_x_N": "Force"}
+        for name, title in names.items():
+            found = history.panels_of({name: np.array([1.0, 2.0])})
+            self.assertEqual([panel[0] for panel in found], [title], name)
+        self.assertEqual(history.panels_of({"iterations": np.ones(2), "dt_s": np.ones(2), "max_speed_m_s": np.ones(2)}), [])
+        np.testing.assert_allclose(history.panels_of({"a_K": np.array([1573.15])})[0][1]["a_K"], [1300])
+        self.assertEqual([history.label_of(n) for n in ("top_surface_m", "left_forward_kg_m", "lining_mean_pressure_Pa", "tap_mass_fed_kg")],
+                         ["top", "left forward", "lining mean", "tap mass fed"])
+
+    def test_flow_rates_are_means_over_a_short_time_and_keep_what_passed(self):
+        time, flow_rate = np.linspace(0, 1, 241), np.zeros(241)
+        flow_rate[100:140:4] = 1e-3
+        title, columns, _, _ = history.panels_of({"gate_flow_m3_s": flow_rate}, time)[0]
+        self.assertEqual(title, "Flow rate, mean over 0.021 s")
+        self.assertAlmostEqual(columns["gate_flow_m3_s"].sum(), flow_rate.sum())
+        self.assertLess(columns["gate_flow_m3_s"].max(), 0.5e-3)
 
     def test_history_of_measures_is_drawn(self):
         self.make_run([0, 0.1], [5, 5])

@@ -87,9 +87,7 @@ def plots(run, graph):
     except slagflow.RunError:
         columns = {}
     time = columns.pop("time_s", None)
-    for title, chosen, unit, size in history.panels_of(columns) if time is not None else []:
-        if title == "Viscous solver":
-            continue
+    for title, chosen, unit, size in history.panels_of(columns, time) if time is not None else []:
         traces = [(label, time, values / size) for label, values in history.labelled(chosen).items()]
         parts.append(figure_html(graph, traces, ("time  [s]", unit, title), not parts))
     rate = np.geomspace(0.01, 100, 60)
