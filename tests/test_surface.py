@@ -36,7 +36,7 @@ class SurfaceCase(unittest.TestCase):
     def make_run(self, name="run", viscosity=1.0, speed=1.0):
         """A block on a floor, faster the higher: up to `speed` m/s; two times."""
         folder = self.folder / name
-        folder.mkdir()
+        folder.mkdir(parents=True, exist_ok=True)
         along = (np.arange(SIDE) + 0.5) * SPACING
         block = np.stack(np.meshgrid(along, along, along), axis=-1).reshape(-1, 3)
         velocity = np.zeros_like(block)

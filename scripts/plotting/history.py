@@ -173,7 +173,8 @@ def draw(run, path):
         draw_panel(axes, time, *panel)
     for axes in list(grid.flat)[len(panels):]:
         axes.set_visible(False)
-    figure.suptitle(run.title.replace("_", " "), fontsize=11)
-    figure.tight_layout()
+    height = figure.get_figheight()
+    figure.suptitle(run.title.replace("_", " "), fontsize=11, y=1 - 0.15 / height, va="center")
+    figure.tight_layout(rect=(0, 0, 1, 1 - 0.3 / height))
     figure.savefig(path)
     plt.close(figure)

@@ -19,6 +19,7 @@ from plotting.surface import Camera, Meshes, SurfaceError, box_of, cropped, fram
 
 DPI = 200
 HEAD, FOOT, ROW_GAP, TALLEST, NARROWEST = 0.75, 0.5, 0.3, 6.0, 4.6  # inches
+ROWS = 3  # times of runs side by side
 
 
 def caption(run):
@@ -30,11 +31,30 @@ def caption(run):
     return "; ".join(parts)
 
 
-def draw(runs, times, colour, path):
-    """Writes the picture: for one run its times in a grid, for several a column each. `times`: in seconds, or None."""
+def caption_of(runs):
+    """Of all runs, where it is the same; else what of it is."""
+    captions = {caption(run) for run in runs}
+    if len(captions) == 1:
+        return captions.pop()
+    spacings = {f"spacing {1000 * run.spacing:.3g} mm" for run in runs}
+    fluids = {repr(run.fluids_in_words()) for run in runs}
+    return "; ".join([caption(runs[0]).split("; spacing")[0] if len(fluids) == 1 else "fluids differ", spacings.pop() if len(spacings) == 1 else "spacings differ"])
+
+
+def times_of_all(runs):
+    """Times [s] that all runs have: of the one that ends first."""
+    first = min(runs, key=lambda run: run.times[-1])
+    return first.times[first.typical_steps(ROWS)]
+
+
+def draw(runs, times, colour, path, titles=None):
+    """Writes the picture: for one run its times in a grid, for several a column each, at the same times. `times`: in seconds, or None;
+    `titles`: of the runs, by default what tells them apart. Raises SurfaceError, RunError, KeyError (a field was not written)."""
     if len({run.dimensions for run in runs}) > 1:
         raise SurfaceError("some runs have two dimensions, some three: allowed: runs of one kind")
-    steps = [run.nearest_steps(times) if times else run.typical_steps() for run in runs]
+    if not times and len(runs) > 1:
+        times = times_of_all(runs)
+    steps = [run.nearest_steps(times) if times is not None and len(times) else run.typical_steps() for run in runs]
     rows = min(len(s) for s in steps)
     steps = [s[:rows] for s in steps]
     quantities = shared(runs, steps, colour)
@@ -44,7 +64,7 @@ def draw(runs, times, colour, path):
     pictures = [[camera.picture(step) for step in s] for camera, s in zip(cameras, steps)]
     flat = cropped([picture for column in pictures for picture in column])
     pictures = [flat[k * rows:(k + 1) * rows] for k in range(len(runs))]
-    figure_of(runs, steps, pictures, quantities[0], path)
+    figure_of(runs, steps, pictures, quantities[0], path, titles or titles_of(runs))
 
 
 def grid(runs, rows, picture):
@@ -56,14 +76,13 @@ def grid(runs, rows, picture):
     return -(-rows // columns), columns, lambda run, row: divmod(row, columns)
 
 
-def figure_of(runs, steps, pictures, quantity, path):
+def figure_of(runs, steps, pictures, quantity, path, titles):
     tall, wide = pictures[0][0].shape[:2]
     rows, columns, place = grid(runs, len(pictures[0]), pictures[0][0])
     across = min(4.6 if columns > 1 else 7.0, 11.0 / columns, TALLEST * wide / tall)  # inches
     height = across * tall / wide
     total = (max(columns * across, NARROWEST), HEAD + rows * (height + ROW_GAP) + FOOT)
     figure = plt.figure(figsize=total, facecolor="white")
-    titles = titles_of(runs)
     for k, run in enumerate(runs):
         for row, picture in enumerate(pictures[k]):
             down, right = place(k, row)
@@ -78,8 +97,7 @@ def figure_of(runs, steps, pictures, quantity, path):
     title = textwrap.shorten(", ".join(names).replace("_", " "), int(9 * total[0]), placeholder=" and more")
     figure.suptitle(title, fontsize=12, y=1 - 0.18 / total[1], va="center")
     colour_key(figure, runs, quantity, total)
-    captions = [caption(run) for run in runs]
-    words = textwrap.fill(captions[0] if len(set(captions)) == 1 else "fluids and spacings differ", int(17 * total[0]))
+    words = textwrap.fill(caption_of(runs), int(17 * total[0]))
     figure.text(0.5, 0.5 * FOOT / total[1], words, ha="center", va="center", fontsize=7.5, color="0.35", linespacing=1.4)
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
@@ -122,15 +140,16 @@ def colour_key(figure, runs, quantity, total):
 
 def main():
     """Called by scripts/plot with the Python that has the tools."""
-    parser = argparse.ArgumentParser(prog="plotting.surface", description=__doc__)
+    parser = argparse.ArgumentParser(prog="plotting.sheet", description=__doc__)
     parser.add_argument("folders", nargs="+", type=Path)
     parser.add_argument("--picture", type=Path, required=True)
     parser.add_argument("--colour", choices=QUANTITIES, default="speed")
     parser.add_argument("--times", type=float, nargs="*")
+    parser.add_argument("--titles", nargs="*")
     arguments = parser.parse_args()
     try:
         tools()
-        draw([slagflow.open(folder) for folder in arguments.folders], arguments.times, arguments.colour, arguments.picture)
+        draw([slagflow.open(folder) for folder in arguments.folders], arguments.times, arguments.colour, arguments.picture, arguments.titles)
     except (SurfaceError, slagflow.RunError, OSError) as error:
         print(error)
         return 1
