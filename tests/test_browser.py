@@ -2,6 +2,7 @@
 
 import io
 import subprocess
+import sys
 import time
 import unittest
 
@@ -71,4 +72,5 @@ class ReportInABrowser(SurfaceCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())

@@ -188,4 +188,5 @@ class PythonPage(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())

@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import sys
 import unittest
 from html.parser import HTMLParser
 from unittest import mock
@@ -173,4 +174,5 @@ class SweepReport(SurfaceCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -139,6 +140,10 @@ class Surface(SurfaceCase):
         self.assertEqual(sheet.titles_of(runs), ["dynamic_viscosity = 1.0", "dynamic_viscosity = 2.0"])
         self.assertEqual([Path(t).name for t in sheet.titles_of([runs[0], runs[0]])], ["run0", "run0"])
 
+    def test_without_times_runs_are_shown_at_those_of_the_first_to_end(self):
+        runs = [types.SimpleNamespace(times=np.arange(n) / 10, typical_steps=lambda wanted, n=n: list(range(n - wanted, n))) for n in (9, 5)]
+        np.testing.assert_allclose(sheet.times_of_all(runs), [0.2, 0.3, 0.4])
+
     def test_fluids_that_runs_call_otherwise_have_all_names(self):
         one, other = (slagflow.open(self.make_run(name)) for name in ("one", "other"))
         del one.case["fluid"]["slag"]
@@ -246,4 +251,5 @@ class Colours(SurfaceCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    outcome = unittest.main(exit=False).result
+    sys.exit(77 if outcome.skipped else not outcome.wasSuccessful())
