@@ -15,10 +15,11 @@ from matplotlib.colors import Normalize
 
 import slagflow
 from plotting.quantity import QUANTITIES, shared
-from plotting.surface import Camera, Meshes, SurfaceError, box_of, cropped, frame_of, tools
+from plotting.surface import LONGEST, Camera, Meshes, SurfaceError, box_of, cropped, frame_of, tools
 
 DPI = 200
 HEAD, FOOT, ROW_GAP, TALLEST, NARROWEST = 0.75, 0.5, 0.3, 6.0, 4.6  # inches
+SEVERAL = 900  # pixels along the longer side of each of several pictures
 ROWS = 3  # times of runs side by side
 
 
@@ -60,7 +61,8 @@ def draw(runs, times, colour, path, titles=None):
     quantities = shared(runs, steps, colour)
     box = box_of(runs, steps)
     frame = frame_of(runs, steps, box)
-    cameras = [Camera(Meshes(run, quantity), box, frame) for run, quantity in zip(runs, quantities)]
+    longest = LONGEST if rows * len(runs) == 1 else SEVERAL
+    cameras = [Camera(Meshes(run, quantity), box, frame, longest) for run, quantity in zip(runs, quantities)]
     pictures = [[camera.picture(step) for step in s] for camera, s in zip(cameras, steps)]
     flat = cropped([picture for column in pictures for picture in column])
     pictures = [flat[k * rows:(k + 1) * rows] for k in range(len(runs))]

@@ -151,6 +151,24 @@ def frame_of(runs, steps, box):
     return np.array([flat.min(axis=0) - edge, flat.max(axis=0) + edge])
 
 
+def taken(window):
+    """What a window of VTK has drawn: colours, shape (down, across, 3), and depth from 0, near, to 1, where nothing is."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+    found = []
+    for depth in (False, True):
+        reader = vtkWindowToImageFilter()
+        reader.SetInput(window)
+        reader.ShouldRerenderOff()
+        reader.ReadFrontBufferOff()
+        reader.SetInputBufferTypeToZBuffer() if depth else reader.SetInputBufferTypeToRGB()
+        reader.Update()
+        image = reader.GetOutput()
+        across, down, _ = image.GetDimensions()
+        found.append(vtk_to_numpy(image.GetPointData().GetScalars()).reshape(down, across, -1)[::-1].copy())
+    return found[0], found[1][:, :, 0]
+
+
 class Camera:
     """One view of a box, the same at all times, that holds a frame: pictures of `longest` pixels along the longer side, on white."""
 
@@ -173,11 +191,12 @@ class Camera:
         plotter.camera_position = [centre + 3 * size * towards, centre, (0, 0, 1)]
         plotter.enable_parallel_projection()
         plotter.parallel_scale = (self._frame[1] - self._frame[0])[1] / 2
-        plotter.camera.clipping_range = (0.1 * size, 8 * size)
-        colours = plotter.screenshot(None, return_img=True)[:, :, :3]
-        depth = -plotter.get_image_depth(fill_value=-np.inf)
+        near, far = 0.1 * size, 8 * size
+        plotter.camera.clipping_range = (near, far)
+        plotter.ren_win.Render()
+        colours, depth = taken(plotter.ren_win)
         plotter.close()
-        return colours, depth
+        return colours, np.where(depth < 1, near + (far - near) * depth, np.inf).astype(np.float32)
 
     def _fluid(self, mesh):
         quantity = self._meshes.quantity
