@@ -14,7 +14,7 @@ th { width: 13rem; color: var(--soft); font-weight: 500; } img { max-width: 100%
 .plots { display: grid; grid-template-columns: repeat(2, minmax(0, 1fr)); gap: 10px; } .plots > div { min-width: 0; }
 video { width: 100%; max-height: 720px; background: #fff; } .scroll { overflow-x: auto; } .wide th { width: auto; } .wide td, .wide th { white-space: nowrap; padding-right: 1rem; }
 ul { padding-left: 1.2rem; } @media (max-width: 800px) { .plots { grid-template-columns: minmax(0, 1fr); } } @media (max-width: 560px) { th { width: 7.5rem; } iframe { height: 380px; } }
-@media print { .modebar-container { display: none; } .live { display: none; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } .plots > div, img, tr { break-inside: avoid; } }
+@media print { .live { display: none; } main { max-width: none; padding: 0; } h2 { break-after: avoid; } .plots > div, img, tr { break-inside: avoid; } }
 """
 MOST_PAGE = 25e6  # bytes; a movie that would make it larger is left out
 
@@ -51,7 +51,7 @@ def figure_html(graph, traces, labels, first, mode="lines"):
     layout = {"template": "plotly_white", "height": 330, "margin": {"l": 60, "r": 15, "t": 30, "b": 45}, "xaxis_title": labels[0], "yaxis_title": labels[1],
               "title": {"text": labels[2], "font": {"size": 14}}, "legend": {"orientation": "h", "y": -0.25}}
     figure = graph.Figure([graph.Scatter(x=x, y=y, name=name, mode=mode) for name, x, y in traces], layout)
-    return figure.to_html(full_html=False, include_plotlyjs="inline" if first else False, config={"responsive": True, "displaylogo": False})
+    return figure.to_html(full_html=False, include_plotlyjs="inline" if first else False, config={"responsive": True, "displayModeBar": False})
 
 
 def plots_html(figures):

@@ -65,17 +65,18 @@ class Meshes:
             return None
         at = min(step, len(self.run.walls.times) - 1)
         now, start = self.run.walls.positions(at), self.run.walls.positions(0)
-        if self.run.dimensions == 2 or "Wall" not in self.run.walls.names:
+        if "Wall" not in self.run.walls.names:
             return self._of_particles(now, box)
         which, first = self.run.walls.field("Wall", at), self.run.walls.field("Wall", 0)
-        parts, rest = [], np.zeros(len(now), bool)
-        for number, wall in enumerate(self.run.case.get("wall", [])):
+        walls = self.run.case.get("wall", [])
+        parts, rest = [], which >= len(walls)  # inlets have walls of their own
+        for number, wall in enumerate(walls):
             its, began = now[which == number], start[first == number]
             if len(its) == 0:
                 continue
             try:
                 mesh = self._of_shapes(number, wall, began, box)
-                parts.append(mesh and shapes.moved(mesh, began, its))
+                parts.append(shapes.moved(mesh, began, its))
             except shapes.UnknownShape:
                 rest |= which == number
         return self._join([*parts, self._of_particles(now[rest], box)])
@@ -85,7 +86,9 @@ class Meshes:
         if number not in self._shapes:
             if moves(wall):
                 box = np.array([began.min(axis=0), began.max(axis=0)]) + np.array([[-0.6], [0.6]]) * self.run.spacing
-            self._shapes[number] = shapes.mesh_of(wall, box, self.run.spacing, self.pyvista)
+            self._shapes[number] = shapes.mesh_of(wall, box, self.run.spacing, self.pyvista, self.run.dimensions == 2)
+        if self._shapes[number] is None:
+            raise shapes.UnknownShape("nothing of it is in the box")
         return self._shapes[number]
 
     def _join(self, parts):
@@ -139,7 +142,7 @@ def frame_of(runs, steps, box):
     """What a view of a box holds, and walls that move near it: lowest and highest place to the right, and up [m], shape (2, 2)."""
     right, up, _ = axes_of(runs[0].dimensions == 2)
     corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
-    low, high = box - 0.3 * np.array([[1], [-1]]) * (box[1] - box[0])
+    low, high = box - 0.6 * np.array([[1], [-1]]) * (box[1] - box[0])
     for run, its_steps in zip(runs, steps):
         moving = [k for k, wall in enumerate(run.case.get("wall", [])) if moves(wall)] if run.walls and "Wall" in run.walls.names else []
         for step in its_steps if moving else []:

@@ -96,10 +96,10 @@ def distance(wall, points):
     return result
 
 
-def contoured(wall, box, spacing, pyvista):
+def contoured(wall, box, spacing, pyvista, flat=False):
     """The mesh of a wall's shapes in a box, lower and upper corner [m], closed where the box cuts them; None where there is nothing.
 
-    Contoured a step outside of them, where distances are right beside seams and corners too, and drawn in by that step."""
+    Contoured a step outside of them, where distances are right beside seams and corners too, and drawn in by that step. `flat`: what y = 0 shows, drawn out along y."""
     size = box[1] - box[0]
     step = min(size.max() / LONGEST, spacing)
     step = max(step, (size.prod() / MOST_SAMPLES) ** (1 / 3))
@@ -107,7 +107,8 @@ def contoured(wall, box, spacing, pyvista):
     grid = pyvista.ImageData(dimensions=counts, spacing=(step,) * 3, origin=box[0] - (2 + OFF) * step)
 
     def far(points):
-        return np.maximum(distance(wall, points), box_distance({"min": box[0], "max": box[1]}, points))
+        inside = distance(wall, points * [1, 0, 1] if flat else points)
+        return np.maximum(inside, box_distance({"min": box[0], "max": box[1]}, points))
 
     values = far(np.asarray(grid.points, float))
     if not (values.min() < AWAY * step < values.max()):
@@ -148,13 +149,13 @@ def surface_of_file(shape, pyvista):
     return plate(mesh, shape["thickness"], shape.get("side", "back"), pyvista) if shape.get("thickness") else mesh
 
 
-def mesh_of(wall, box, spacing, pyvista):
+def mesh_of(wall, box, spacing, pyvista, flat=False):
     """A wall's mesh by its shapes, or None where the box holds nothing of it. Raises UnknownShape where its shapes cannot be drawn."""
     try:
         files = [surface_of_file(shape, pyvista) for shape in wall["shapes"] if shape.get("shape") == "stl"]
-        if files and wall.get("subtract"):
-            raise UnknownShape("a surface out of CAD with parts taken away")
-        parts = files + ([contoured(wall, box, spacing, pyvista)] if len(files) < len(wall["shapes"]) else [])
+        if files and (flat or wall.get("subtract")):
+            raise UnknownShape("a section of a surface out of CAD, or one with parts taken away")
+        parts = files + ([contoured(wall, box, spacing, pyvista, flat)] if len(files) < len(wall["shapes"]) else [])
     except (KeyError, ValueError, TypeError) as error:
         raise UnknownShape(str(error)) from error
     parts = [part for part in parts if part is not None and part.n_points]
