@@ -6,8 +6,9 @@ from pathlib import Path
 import numpy as np
 
 LONGEST, MOST_SAMPLES = 110, 3e6  # samples along the longest side of what is shown; of all
+SLIVER = 0.2  # of a step: corners nearer than this are one
 SPARED = 0.85  # of the triangles, those of flat faces first
-SHARP = 30.0  # degrees between faces that are shaded as an edge
+SHARP = 20.0  # degrees between faces that are shaded as an edge
 OFF, AWAY = 0.137, 0.75  # of a step: so that faces on round numbers do not lie on samples; outside of the shapes
 
 
@@ -116,11 +117,32 @@ def contoured(wall, box, spacing, pyvista, flat=False):
     mesh = grid.contour([AWAY * step], values, method="flying_edges")
     points = np.asarray(mesh.points, float)
     for _ in range(3):  # at an edge of the box one face after the other
-        here = far(points)
-        slope = np.stack([far(points + 1e-3 * step * axis) - here for axis in np.eye(3)], axis=1) / (1e-3 * step)
-        points = points - here[:, None] * slope
+        points = points - far(points)[:, None] * slope(far, points, step)
     mesh.points = points
-    return mesh.decimate_pro(SPARED, feature_angle=SHARP, preserve_topology=True)
+    whole = mesh.clean(tolerance=SLIVER * step, absolute=True, polys_to_lines=False, lines_to_points=False)
+    whole = whole.decimate_pro(SPARED, feature_angle=SHARP, preserve_topology=True)
+    return shaded(whole, far, step, pyvista)
+
+
+def slope(far, points, step):
+    """Of a distance at some points, shape (points, 3)."""
+    here, little = far(points), 1e-3 * step
+    return np.stack([far(points + little * axis) - here for axis in np.eye(3)], axis=1) / little
+
+
+def shaded(mesh, far, step, pyvista):
+    """The mesh with corners of each triangle's own, and normals that are those of the shapes there: edges stay sharp, round faces round."""
+    corners = np.asarray(mesh.points, float)[mesh.faces.reshape(-1, 4)[:, 1:]]
+    middle = corners.mean(axis=1, keepdims=True)
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    across /= np.maximum(np.linalg.norm(across, axis=1, keepdims=True), 1e-300)
+    if far(middle[:, 0] + 0.3 * step * across).sum() < 0:  # the triangles look inwards
+        corners, across = corners[:, ::-1], -across
+    beside = corners + 0.1 * (middle - corners) + 0.3 * step * across[:, None, :]
+    made = pyvista.PolyData(corners.reshape(-1, 3), np.column_stack([np.full(len(corners), 3), np.arange(3 * len(corners)).reshape(-1, 3)]).ravel())
+    normals = slope(far, beside.reshape(-1, 3), step)
+    made.point_data.active_normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    return made
 
 
 def plate(mesh, thickness, side, pyvista):
@@ -149,20 +171,22 @@ def surface_of_file(shape, pyvista):
     return plate(mesh, shape["thickness"], shape.get("side", "back"), pyvista) if shape.get("thickness") else mesh
 
 
+def with_edges(mesh):
+    """Triangles with normals, faces at more than SHARP to each other apart."""
+    return mesh.triangulate().compute_normals(split_vertices=True, feature_angle=SHARP, cell_normals=False)
+
+
 def mesh_of(wall, box, spacing, pyvista, flat=False):
     """A wall's mesh by its shapes, or None where the box holds nothing of it. Raises UnknownShape where its shapes cannot be drawn."""
     try:
-        files = [surface_of_file(shape, pyvista) for shape in wall["shapes"] if shape.get("shape") == "stl"]
+        files = [with_edges(surface_of_file(shape, pyvista)) for shape in wall["shapes"] if shape.get("shape") == "stl"]
         if files and (flat or wall.get("subtract")):
             raise UnknownShape("a section of a surface out of CAD, or one with parts taken away")
         parts = files + ([contoured(wall, box, spacing, pyvista, flat)] if len(files) < len(wall["shapes"]) else [])
-    except (KeyError, ValueError, TypeError) as error:
+    except KeyError as error:
         raise UnknownShape(str(error)) from error
     parts = [part for part in parts if part is not None and part.n_points]
-    if not parts:
-        return None
-    mesh = parts[0] if len(parts) == 1 else pyvista.merge(parts)
-    return mesh.extract_surface(algorithm=None).triangulate().compute_normals(split_vertices=True, feature_angle=SHARP, cell_normals=False)
+    return None if not parts else parts[0] if len(parts) == 1 else pyvista.merge(parts, merge_points=False)
 
 
 def pose(start, now):
@@ -180,6 +204,6 @@ def moved(mesh, start, now):
     turn, shift = pose(start, now)
     copy = mesh.copy()
     copy.points = np.asarray(mesh.points, float) @ turn.T + shift
-    if "Normals" in copy.point_data:
-        copy.point_data["Normals"] = np.asarray(copy.point_data["Normals"]) @ turn.T
+    if (normals := mesh.point_data.active_normals) is not None:
+        copy.point_data.active_normals = np.asarray(normals) @ turn.T
     return copy
