@@ -60,7 +60,7 @@ def compose(k3d, fluid, walls, quantity, run, box):
                          color=0xB9BFC6, opacity=0.3, flat_shading=False, name="walls")
     middle, size = (box[0] + box[1]) / 2, float(np.linalg.norm(box[1] - box[0]))
     plot.time = float(list(fluid or walls or {"0": None})[len(fluid or walls) // 3])
-    away = middle + (2.2 if run.dimensions == 2 else 1.5) * size * surface.direction(run.dimensions == 2)
+    away = middle + 2.0 * size * surface.direction(run.dimensions == 2)
     plot.camera = [*map(float, away), *map(float, middle), 0.0, 0.0, 1.0]
     plot.snapshot_type = "full"
     return plot.get_snapshot(9)
