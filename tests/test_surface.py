@@ -13,7 +13,7 @@ from test_plot import HISTORY, PLOT, PROJECT, SPACING, write_vtkhdf
 import h5py
 import matplotlib.image
 import numpy as np
-from plotting import sheet, surface, walls
+from plotting import sheet, walls
 from plotting.quantity import Quantity, ages
 import slagflow
 

@@ -65,10 +65,13 @@ def trust(run):
             ("steps", number(s["steps"]) if "steps" in s else ""),
             ("mass", f"{s['mass_start']:.6g} kg at the start, {s['mass_in']:.6g} kg in the domain at the end, {s['mass_left']:.6g} kg left"
              if {"mass_start", "mass_in", "mass_left"} <= s.keys() else ""),
+            ("energy at the end", f"{s['kinetic_energy']:.3g} J kinetic, {s['potential_energy']:.3g} J potential, {s['dissipated_energy']:.3g} J dissipated so far"
+             if {"kinetic_energy", "potential_energy", "dissipated_energy"} <= s.keys() else ""),
             ("largest compression", f"{100 * s['max_compression']:.3g} % at {s.get('max_compression_time', 0):.4g} s" if "max_compression" in s else ""),
             ("deepest in a wall", f"{walls['deepest_spacings']:.2g} spacings" if "deepest_spacings" in walls else ""),
             ("in thin sheets", f"{s['in_thin_sheets']['most']} particles at most" if "in_thin_sheets" in s else ""),
-            ("viscous solver", text(f"{solver.get('solver')}, {number(solver.get('iterations_mean', 0.0), 3)} iterations a step") if solver else "")]
+            ("viscous solver", text(f"{solver.get('solver')}, {number(solver.get('iterations_mean', 0.0), 3)} iterations a step") if solver else ""),
+            ("verification", "this version against closed forms and experiments, with what it misses: tests/verification/README.md beside its source")]
     return rows
 
 
@@ -100,14 +103,14 @@ def plots(run, graph):
 def page(run, colour):
     """The whole file as text."""
     k3d, graph = tools()
-    view, times = scene(run, colour, k3d)
+    view, times, label = scene(run, colour, k3d)
     told, warnings = run.told()
     status = "" if run.summary.get("status") in (None, "done") else f" ({run.summary['status']})"
     parts = [f"<h1>{text(run.title.replace('_', ' '))}</h1><p class='lead'>{text(run.case.get('case', {}).get('description', ''))}{text(status)}</p>"]
     parts += [f"<p class='warning'>{text(line)}</p>" for line in warnings]
     parts.append(picture_html(run.path / "pictures/surface.png", "The free surface at some times"))
     parts.append(f"<section class='live'><h2>In three dimensions</h2><p class='lead'>Turn it with the mouse; <em>Controls</em>, <em>Play loop</em> in its corner plays its "
-                 f"{times} times.</p><iframe title='The flow in three dimensions' loading='eager' srcdoc=\"{html.escape(view)}\"></iframe></section>")
+                 f"{times} times. Colours: {text(' '.join(label.split()))}.</p><iframe title='The flow in three dimensions' loading='eager' srcdoc=\"{html.escape(view)}\"></iframe></section>")
     place = len(parts)  # of the movie, which takes what room is left
     if told:
         parts.append("<h2>What came out</h2><ul>" + "".join(f"<li>{text(line)}</li>" for line in told) + "</ul>")

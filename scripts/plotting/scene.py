@@ -31,7 +31,7 @@ def steps_that_fit(run, colour, box):
 
 
 def scene(run, colour, k3d):
-    """The page of the view, and how many times it holds. Raises KeyError where the run has not written what the colour needs."""
+    """The page of the view, how many times it holds, and what colours it. Raises KeyError where the run has not written what the colour needs."""
     box = surface.box_of([run], [spread(run, MOST_TIMES)])
     steps = steps_that_fit(run, colour, box)
     quantity = shared([run], [steps], colour)[0]
@@ -42,7 +42,7 @@ def scene(run, colour, k3d):
             fluid[name] = (*arrays(mesh), np.asarray(mesh["value"], np.float32))
         if (mesh := meshes.walls(step, box)) is not None:
             walls[name] = mesh
-    return compose(k3d, fluid, walls, quantity, run, box), len(steps)
+    return compose(k3d, fluid, walls, quantity, run, box), len(steps), quantity.label
 
 
 def compose(k3d, fluid, walls, quantity, run, box):
