@@ -25,7 +25,7 @@ except ImportError as missing:
 PROJECT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(PROJECT / "scripts"))
 from plotting import flow, history, paper_views  # noqa: E402
-from plotting.run_folder import RunFolder, RunFolderError  # noqa: E402
+import slagflow  # noqa: E402
 from plotting.splat import OVERSAMPLING, Canvas, View  # noqa: E402
 
 
@@ -127,7 +127,7 @@ class Plot(unittest.TestCase):
 
     def test_a_run_without_fluid_shows_its_walls(self):
         self.make_run([0], [0])
-        scene = flow.Scene(RunFolder(self.folder), [0])
+        scene = flow.Scene(slagflow.open(self.folder), [0])
         self.assertEqual(len(scene.walls[0]), 9)
 
     def test_refuses_another_table_than_a_flow_curve(self):
@@ -170,7 +170,7 @@ class Plot(unittest.TestCase):
 
     def test_views_of_the_papers_figures_are_drawn_side_by_side(self):
         self.make_run([0, 0.1], [50, 50])
-        run, target = RunFolder(self.folder), self.folder / "views.png"
+        run, target = slagflow.open(self.folder), self.folder / "views.png"
         views = [paper_views.Picture(run, 0.1, "side"), paper_views.Picture(run, 0.1, "oblique", flow.OBLIQUE, ("", ""))]
         paper_views.draw(views, "two views", target)
         self.assertGreater(matplotlib.image.imread(target).shape[1], 600)
@@ -206,15 +206,15 @@ class Plot(unittest.TestCase):
 
     def test_nearest_steps_are_taken_once_each(self):
         self.make_run([0, 0.1, 0.2], [1, 1, 1])
-        self.assertEqual(RunFolder(self.folder).nearest_steps([0.19, 0.06, 0.11, 7]), [1, 2])
+        self.assertEqual(slagflow.open(self.folder).nearest_steps([0.19, 0.06, 0.11, 7]), [1, 2])
 
     def test_typical_steps_end_while_fluid_is_left(self):
         self.make_run([0, 0.1, 0.2, 0.3, 0.4, 0.5], [40, 40, 40, 20, 3, 0])
-        self.assertEqual(RunFolder(self.folder).typical_steps(3), [1, 2, 3])
+        self.assertEqual(slagflow.open(self.folder).typical_steps(3), [1, 2, 3])
 
     def test_reader_takes_each_steps_own_particles(self):
         self.make_run([0, 0.1], [2, 3])
-        fluid = RunFolder(self.folder).fluid
+        fluid = slagflow.open(self.folder).fluid
         np.testing.assert_allclose(fluid.positions(1)[:, 0], [0, SPACING, 2 * SPACING])
         np.testing.assert_allclose(fluid.speeds(1), [1, 2, 3])
 
@@ -222,12 +222,12 @@ class Plot(unittest.TestCase):
         self.make_run([0, 0.1, 0.2], [2, 2, 2])
         with h5py.File(self.folder / "particles.vtkhdf", "a") as file:
             file["VTKHDF/Steps"].attrs["NSteps"] = 2
-        self.assertEqual(RunFolder(self.folder).nearest_steps([0.2]), [1])
+        self.assertEqual(slagflow.open(self.folder).nearest_steps([0.2]), [1])
 
     def test_history_takes_numbers_and_leaves_out_text(self):
         self.make_run([0], [1])
         (self.folder / "history.csv").write_text("time_s,front_m,class\n0,,wall-flow\n0.1,-0.5,free-jet\n")
-        columns = RunFolder(self.folder).history()
+        columns = slagflow.open(self.folder).columns()
         self.assertEqual(list(columns), ["time_s", "front_m"])
         np.testing.assert_array_equal(columns["front_m"], [np.nan, -0.5])
 
@@ -237,7 +237,7 @@ class Plot(unittest.TestCase):
         self.assertEqual(set(curves), {"a, jet", "b"})
         np.testing.assert_array_equal(curves["a, jet"], front)
 
-    def test_measures_have_panels_before_the_solver(self):
+    def test_measures_have_panels_and_the_solver_has_none(self):
         time, nothing = np.array([0.0, 1.0]), np.array([0.0, 0.0])
         panels = history.panels_of({
             "iterations": np.array([1.0, 2.0]), "a_front_m": 0.05 * time, "a_passed": 0.5 * time, "gate_flow_m3_s": 2e-3 * time,
@@ -245,11 +245,33 @@ class Plot(unittest.TestCase):
             "lid_pressure_y_N": 1e-3 * time, "lid_torque_z_Nm_m": 2e-5 * time, "kinetic_energy_J": 0.02 * time})
         self.assertEqual([(title, unit) for title, _, unit, _ in panels],
                          [("Front", "[mm]"), ("Passed share of the fluid", "[%]"), ("Flow rate", "[l/s]"), ("Volume", "[m³]"),
-                          ("Force", "[kN]"), ("Torque per width", "[µN m/m]"), ("Energy", "[mJ]"), ("Viscous solver", "iterations")])
+                          ("Force", "[kN]"), ("Torque per width", "[µN m/m]"), ("Energy", "[mJ]")])
         force = dict((title, columns) for title, columns, _, _ in panels)["Force"]
         self.assertEqual(list(force), ["lid_force_x_N"])  # y is nothing beside x
         np.testing.assert_allclose(force["lid_force_x_N"], 4e3 * time)
         self.assertEqual(history.label_of("lid_force_x_N"), "lid x")
+
+    def test_every_kind_of_measure_has_a_panel(self):
+        names = {"gate_flow_m3_s": "Flow rate", "held_m3": "Volume", "top_surface_m": "Level", "top_thickness_m": "Thickness of the fluid",
+                 "pool_highest_m": "Level", "pool_mean_thickness_m": "Thickness of the fluid", "pool_covered_share": "Touched or covered share",
+                 "weir_forward_kg": "Mass passed", "tap_mass_fed_kg": "Mass fed and taken", "lining_wetted_share": "Touched or covered share",
+                 "lining_largest_pressure_Pa": "Pressure on a wall", "out_p50_s": "Time since it came in", "out_inside_mean_s": "Time since it came in",
+                 "stir_index": "Mixing index", "max_temperature_K": "Temperature", "heat_to_pot_J": "Heat", "lid_pressure_x_N": "Force"}
+        for name, title in names.items():
+            found = history.panels_of({name: np.array([1.0, 2.0])})
+            self.assertEqual([panel[0] for panel in found], [title], name)
+        self.assertEqual(history.panels_of({"iterations": np.ones(2), "dt_s": np.ones(2), "max_speed_m_s": np.ones(2)}), [])
+        np.testing.assert_allclose(history.panels_of({"a_K": np.array([1573.15])})[0][1]["a_K"], [1300])
+        self.assertEqual([history.label_of(n) for n in ("top_surface_m", "left_forward_kg_m", "lining_mean_pressure_Pa", "tap_mass_fed_kg")],
+                         ["top", "left forward", "lining mean", "tap mass fed"])
+
+    def test_flow_rates_are_means_over_a_short_time_and_keep_what_passed(self):
+        time, flow_rate = np.linspace(0, 1, 241), np.zeros(241)
+        flow_rate[100:140:4] = 1e-3
+        title, columns, _, _ = history.panels_of({"gate_flow_m3_s": flow_rate}, time)[0]
+        self.assertEqual(title, "Flow rate, mean over 0.021 s")
+        self.assertAlmostEqual(columns["gate_flow_m3_s"].sum(), flow_rate.sum())
+        self.assertLess(columns["gate_flow_m3_s"].max(), 0.5e-3)
 
     def test_history_of_measures_is_drawn(self):
         self.make_run([0, 0.1], [5, 5])
@@ -283,8 +305,8 @@ class Plot(unittest.TestCase):
     def test_case_file_without_spacing_is_an_error(self):
         self.make_run([0], [1])
         (self.folder / "case.toml").write_text("[resolution]\n")
-        with self.assertRaisesRegex(RunFolderError, "spacing"):
-            RunFolder(self.folder)
+        with self.assertRaisesRegex(slagflow.RunError, "spacing"):
+            slagflow.open(self.folder)
 
     def test_files_that_are_no_text_or_no_case_are_errors(self):
         self.make_run([0], [1])
@@ -292,14 +314,14 @@ class Plot(unittest.TestCase):
         for wrong in (b"\xff\xfe", b"resolution = 3\n", b'[resolution]\nspacing = "x"\n', b"[resolution]\nspacing = 0\n",
                       b"[resolution]\nspacing = nan\n"):
             (self.folder / "case.toml").write_bytes(wrong)
-            with self.assertRaisesRegex(RunFolderError, "case.toml: "):
-                RunFolder(self.folder)
+            with self.assertRaisesRegex(slagflow.RunError, "case.toml: "):
+                slagflow.open(self.folder)
         (self.folder / "case.toml").write_text("\ufeff" + case)
         (self.folder / "history.csv").write_bytes(b"\xff\xfe\x00")
-        with self.assertRaisesRegex(RunFolderError, "history.csv is not a table of text"):
-            RunFolder(self.folder).history()
+        with self.assertRaisesRegex(slagflow.RunError, "history.csv is not a table of text"):
+            slagflow.open(self.folder).columns()
         (self.folder / "history.csv").write_text("\ufeff" + HISTORY)
-        self.assertIn("time_s", RunFolder(self.folder).history())
+        self.assertIn("time_s", slagflow.open(self.folder).columns())
 
     def test_ball_has_its_true_size(self):
         canvas = Canvas((-1, 1, -1, 1), 100)

@@ -189,7 +189,7 @@ class Sweep(unittest.TestCase):
         done = self.run_sweep("--", "--jobs", "2")
         self.assertEqual(done.returncode, 2)
         self.assertIn("--install puts it there", done.stderr)
-        self.assertFalse((PROJECT / ".venv").exists())
+        self.assertFalse((PROJECT / ".venv/bin/snakemake").exists())
 
     def test_bad_arguments_are_errors(self):
         for arguments, said in ((["--cores", "0"], "whole number >= 1"), (["--name", "../x"], "as a name"),

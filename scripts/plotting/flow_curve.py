@@ -9,22 +9,22 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from plotting.run_folder import RunFolderError
+import slagflow
 
 AXES = {"shear_rate_1/s": "shear rate  [1/s]", "rotation_rad/s": "rotation  [rad/s]"}
 STYLES = {"newtonian_Pa": ("#7a4fa3", ":"), "bingham_Pa": ("#31688e", "-"), "herschel-bulkley_Pa": ("#d1652a", "--")}
 
 
 def read(path):
-    """Column names and rows; an empty field is not-a-number. Throws RunFolderError."""
+    """Column names and rows; an empty field is not-a-number. Throws slagflow.RunError."""
     try:
         with open(path, newline="") as file:
             names, *rows = csv.reader(file)
             data = np.array([[float(field or "nan") for field in row] for row in rows])
     except (OSError, ValueError) as error:
-        raise RunFolderError(f"{path} is not a table of curves: {error}") from error
+        raise slagflow.RunError(f"{path} is not a table of curves: {error}") from error
     if names[0] not in AXES or names[1:2] != ["measured_Pa"] or data.ndim != 2:
-        raise RunFolderError(f"{path} is not what slagflow rheometry -o leaves beside its table")
+        raise slagflow.RunError(f"{path} is not what slagflow rheometry -o leaves beside its table")
     return names, data
 
 

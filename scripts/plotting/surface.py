@@ -1,30 +1,15 @@
-"""The free surface as a smooth mesh, shaded, among the walls: one view, a row for each time.
+"""The free surface as a smooth mesh, shaded, among the walls: pictures of one view at some times.
 
 The mesh is that of pysplashsurf (weighted smoothing: F. Loeschner et al., Eurographics 2023); VTK draws it off screen."""
 
-import argparse
-import sys
-import textwrap
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, Normalize
 
-from plotting.run_folder import RunFolder, RunFolderError
+from plotting import walls as shapes
 
-WIDTH, DPI = 1600, 200  # pixels of a view; of the figure an inch
-HEAD, FOOT, ROW_GAP, TALLEST, NARROWEST = 0.75, 0.5, 0.3, 6.0, 4.6  # inches
+LONGEST, FINER, EDGE = 1200, 2, 0.02  # pixels along the longer side of a view, each the mean of FINER x FINER drawn; its white edge, a share
 RADIUS, SMOOTHING, CUBE, THRESHOLD = 0.5, 2.0, 0.6, 0.6  # of a particle in spacings; the others in radii
 SMOOTHINGS, WALL_SMOOTHINGS, NORMALS = 15, 25, 8
-SEQUENTIAL = ListedColormap(plt.get_cmap("viridis")(np.linspace(0.08, 1, 256)))
-FEW = ListedColormap(["#c8553d", "#2f6690", "#8d99ae", "#e9c46a", "#588157", "#6d597a"])
-WALL, LIGHT = "#b9bfc6", "#ffffff"
+WALL, WHITE, VEIL = "#c3c9cf", 255, 0.3  # VEIL: how much of a wall is seen where it hides fluid
 
 
 class SurfaceError(Exception):
@@ -37,58 +22,23 @@ def tools():
         import pysplashsurf
         import pyvista
     except ImportError as missing:
-        raise SurfaceError(f"{missing}: `scripts/install --surface` brings what draws surfaces") from missing
+        raise SurfaceError(f"{missing}: `scripts/install --pictures` brings what draws surfaces") from missing
     return pysplashsurf, pyvista
 
 
-UNITS = {  # label, factor from SI units, and the largest value [SI] of which it is taken
-    "speed": [("speed  [cm/s]", 100.0, 0.5), ("speed  [m/s]", 1.0, np.inf)],
-    "depth": [("depth below the highest place  [mm]", 1000.0, 2.0), ("depth below the highest place  [m]", 1.0, np.inf)],
-    "pressure": [("pressure  [Pa]", 1.0, 5e3), ("pressure  [kPa]", 1e-3, np.inf)],
-    "viscosity": [("apparent viscosity  [Pa s]", 1.0, np.inf)],
-    "fluid": [("fluid", 1.0, np.inf)],
-    "yielded": [("yielded", 1.0, np.inf)],
-}
-FIELDS = {"fluid": "Fluid", "viscosity": "Viscosity", "yielded": "Yielded", "pressure": "Pressure"}
-
-
-class Quantity:
-    """What colours the surface: values of the particles in SI units, by step; a label, a factor and limits in its unit."""
-
-    def __init__(self, run, steps, name):
-        self.name, self.few = name, name in ("fluid", "yielded")
-        self.values = {step: self._of(run.fluid, step) for step in steps}
-        self.map = FEW if self.few else SEQUENTIAL
-        every = np.concatenate([v for v in self.values.values() if len(v)] or [np.zeros(1)])
-        top = float(np.quantile(every, 0.998))
-        low = float(every.min()) if name == "viscosity" else 0.0
-        self.limits = (-0.5, FEW.N - 0.5) if self.few else (low, max(top, low + 1e-12))
-        self.label, self.factor = UNITS[name][0][:2]
-
-    def _of(self, fluid, step):
-        if self.name == "speed":
-            return fluid.speeds(step)
-        if self.name == "depth":
-            z = fluid.positions(step)[:, 2]
-            return z.max(initial=-np.inf) - z
-        return fluid.field(FIELDS[self.name], step)
-
-    def share(self, limits):
-        """Takes limits [SI units] that hold for all runs shown, and the unit that fits them."""
-        self.label, self.factor = next(u[:2] for u in UNITS[self.name] if limits[1] <= u[2])
-        self.limits = tuple(self.factor * value for value in limits)
-
-
-QUANTITIES = tuple(UNITS)
+def moves(wall):
+    """Whether a wall of the case moves."""
+    return wall.get("motion", {}).get("type", "rest") != "rest"
 
 
 class Meshes:
-    """Surfaces of a run's fluid and walls, in metres. Walls that do not change are meshed once."""
+    """Surfaces of a run's fluid and walls, in metres: walls by the shapes of the case, else by their particles. What does not change is
+    meshed once."""
 
     def __init__(self, run, quantity, cube=CUBE):
         self._splash, self.pyvista = tools()
         self.run, self.quantity, self._cube = run, quantity, cube
-        self._walls = (None, None)
+        self._shapes, self._joined, self._particles = {}, (None, None), (None, None)
 
     def _surface(self, positions, values, smoothings):
         origin = positions.mean(axis=0)  # single precision is used inside
@@ -110,17 +60,54 @@ class Meshes:
         return self._surface(positions, self.quantity.factor * self.quantity.values[step], SMOOTHINGS)
 
     def walls(self, step, box):
-        """Of the wall particles in a box, lower and upper corner."""
+        """Of what is in a box, lower and upper corner [m], as one mesh; None where there is nothing."""
         if self.run.walls is None:
             return None
-        positions = self.run.walls.positions(min(step, len(self.run.walls.times) - 1))
+        at = min(step, len(self.run.walls.times) - 1)
+        now, start = self.run.walls.positions(at), self.run.walls.positions(0)
+        if "Wall" not in self.run.walls.names:
+            return self._of_particles(now, box)
+        which, first = self.run.walls.field("Wall", at), self.run.walls.field("Wall", 0)
+        walls = self.run.case.get("wall", [])
+        parts, rest = [], which >= len(walls)  # inlets have walls of their own
+        for number, wall in enumerate(walls):
+            its, began = now[which == number], start[first == number]
+            if len(its) == 0:
+                continue
+            try:
+                mesh = self._of_shapes(number, wall, began, box)
+                parts.append(shapes.moved(mesh, began, its))
+            except shapes.UnknownShape:
+                rest |= which == number
+        return self._join([*parts, self._of_particles(now[rest], box)])
+
+    def _of_shapes(self, number, wall, began, box):
+        """A wall at the start: of one that moves all that the domain shows, of one at rest what is in the box."""
+        if number not in self._shapes:
+            if moves(wall):
+                box = np.array([began.min(axis=0), began.max(axis=0)]) + np.array([[-0.6], [0.6]]) * self.run.spacing
+            self._shapes[number] = shapes.mesh_of(wall, box, self.run.spacing, self.pyvista, self.run.dimensions == 2)
+        if self._shapes[number] is None:
+            raise shapes.UnknownShape("nothing of it is in the box")
+        return self._shapes[number]
+
+    def _join(self, parts):
+        """One mesh; the same one where the parts are the same."""
+        parts = [part for part in parts if part is not None]
+        known, mesh = self._joined
+        if known is None or len(known) != len(parts) or any(a is not b for a, b in zip(known, parts)):
+            mesh = None if not parts else parts[0] if len(parts) == 1 else self.pyvista.merge(parts, merge_points=False)
+            self._joined = (parts, mesh)
+        return mesh
+
+    def _of_particles(self, positions, box):
         positions = positions[((positions > box[0]) & (positions < box[1])).all(axis=1)]
         if len(positions) == 0:
             return None
-        known, mesh = self._walls
+        known, mesh = self._particles
         if known is None or known.shape != positions.shape or not np.array_equal(known, positions):
             mesh = self._surface(positions, np.zeros(len(positions)), WALL_SMOOTHINGS)
-            self._walls = (positions, mesh)
+            self._particles = (positions, mesh)
         return mesh
 
 
@@ -130,31 +117,6 @@ def direction(flat):
         return np.array([0.0, -1.0, 0.0])
     azimuth, elevation = np.radians([-38, 24])
     return np.array([np.cos(azimuth) * np.cos(elevation), np.sin(azimuth) * np.cos(elevation), np.sin(elevation)])
-
-
-def render(meshes, steps, box):
-    """One picture a step, all with the same camera: arrays of WIDTH pixels across, a white ground."""
-    pyvista = meshes.pyvista
-    flat = meshes.run.dimensions == 2
-    middle, size = (box[0] + box[1]) / 2, np.linalg.norm(box[1] - box[0])
-    pictures = []
-    for step in steps:
-        plotter = pyvista.Plotter(off_screen=True, window_size=(WIDTH, WIDTH))
-        plotter.set_background(LIGHT)
-        fluid, walls = meshes.fluid(step), meshes.walls(step, box)
-        if fluid is not None:
-            plotter.add_mesh(fluid, scalars="value", cmap=meshes.quantity.map, clim=meshes.quantity.limits, smooth_shading=True,
-                             specular=0.3, specular_power=15, ambient=0.25, show_scalar_bar=False)
-        if walls is not None:
-            plotter.add_mesh(walls, color=WALL, opacity=1.0 if flat else 0.3, smooth_shading=True, ambient=0.3)
-        plotter.camera_position = [middle + 3 * size * direction(flat), middle, (0, 0, 1)]
-        plotter.enable_parallel_projection()
-        plotter.parallel_scale = 0.55 * size
-        plotter.camera.clipping_range = (0.1 * size, 8 * size)
-        plotter.enable_anti_aliasing("ssaa")
-        pictures.append(plotter.screenshot(None, return_img=True))
-        plotter.close()
-    return pictures
 
 
 def box_of(runs, steps):
@@ -168,136 +130,110 @@ def box_of(runs, steps):
     return np.array([low - margin, high + margin])
 
 
+def axes_of(flat):
+    """Unit vectors of a view to the right, up, and to the viewer."""
+    towards = direction(flat)
+    right = np.cross([0, 0, 1], towards)
+    right /= np.linalg.norm(right)
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def frame_of(runs, steps, box):
+    """What a view of a box holds, and walls that move near it: lowest and highest place to the right, and up [m], shape (2, 2)."""
+    right, up, _ = axes_of(runs[0].dimensions == 2)
+    corners = np.stack(np.meshgrid(*box.T), axis=-1).reshape(-1, 3)
+    low, high = box - 0.6 * np.array([[1], [-1]]) * (box[1] - box[0])
+    for run, its_steps in zip(runs, steps):
+        moving = [k for k, wall in enumerate(run.case.get("wall", [])) if moves(wall)] if run.walls and "Wall" in run.walls.names else []
+        for step in its_steps if moving else []:
+            at = min(step, len(run.walls.times) - 1)
+            points = run.walls.positions(at)[np.isin(run.walls.field("Wall", at), moving)]
+            corners = np.concatenate([corners, np.clip(points, low, high)])
+    flat = corners @ np.array([right, up]).T
+    edge = EDGE * np.ptp(flat, axis=0).max()
+    return np.array([flat.min(axis=0) - edge, flat.max(axis=0) + edge])
+
+
+def taken(window):
+    """What a window of VTK has drawn: colours, shape (down, across, 3), and depth from 0, near, to 1, where nothing is."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
+    found = []
+    for depth in (False, True):
+        reader = vtkWindowToImageFilter()
+        reader.SetInput(window)
+        reader.ShouldRerenderOff()
+        reader.ReadFrontBufferOff()
+        reader.SetInputBufferTypeToZBuffer() if depth else reader.SetInputBufferTypeToRGB()
+        reader.Update()
+        image = reader.GetOutput()
+        across, down, _ = image.GetDimensions()
+        found.append(vtk_to_numpy(image.GetPointData().GetScalars()).reshape(down, across, -1)[::-1].copy())
+    return found[0], found[1][:, :, 0]
+
+
+class Camera:
+    """One view of a box, the same at all times, that holds a frame: pictures of `longest` pixels along the longer side, on white."""
+
+    def __init__(self, meshes, box, frame, longest=LONGEST):
+        self._meshes, self._box, self._frame = meshes, box, frame
+        self._flat = meshes.run.dimensions == 2
+        size = frame[1] - frame[0]
+        self._pixels = tuple(int(n) for n in np.maximum(2 * np.round(longest / 2 * size / size.max()), 2))  # across, down
+        self._of_walls = (None, None)
+
+    def _shot(self, mesh, **look):
+        """Colours, shape (down, across, 3), and the distance from the viewer [m], infinite where nothing is."""
+        plotter = self._meshes.pyvista.Plotter(off_screen=True, window_size=[FINER * n for n in self._pixels])
+        plotter.set_background("white")
+        plotter.add_mesh(mesh, smooth_shading=True, show_scalar_bar=False, **look)
+        right, up, towards = axes_of(self._flat)
+        middle = self._frame.mean(axis=0)
+        size, depth = np.linalg.norm(self._box[1] - self._box[0]), self._box.mean(axis=0) @ towards
+        centre = middle[0] * right + middle[1] * up + depth * towards
+        plotter.camera_position = [centre + 3 * size * towards, centre, (0, 0, 1)]
+        plotter.enable_parallel_projection()
+        plotter.parallel_scale = (self._frame[1] - self._frame[0])[1] / 2
+        near, far = 0.1 * size, 8 * size
+        plotter.camera.clipping_range = (near, far)
+        plotter.ren_win.Render()
+        colours, depth = taken(plotter.ren_win)
+        plotter.close()
+        return colours, np.where(depth < 1, near + (far - near) * depth, np.inf).astype(np.float32)
+
+    def _fluid(self, mesh):
+        quantity = self._meshes.quantity
+        return self._shot(mesh, scalars="value", cmap=quantity.map, clim=quantity.limits, specular=0.3, specular_power=15, ambient=0.25)
+
+    def _walls(self, mesh):
+        if self._of_walls[0] is not mesh:
+            self._of_walls = (mesh, self._shot(mesh, color=WALL, ambient=0.35, diffuse=0.75))
+        return self._of_walls[1]
+
+    def picture(self, step):
+        """The fluid among the walls; a wall is a veil where it hides fluid. Shape (down, across, 3), bytes."""
+        across, down = self._pixels
+        shape = (FINER * down, FINER * across)
+        colours, depth = np.full((*shape, 3), WHITE, np.uint8), np.full(shape, np.inf, np.float32)
+        fluid, walls = self._meshes.fluid(step), self._meshes.walls(step, self._box)
+        if fluid is not None:
+            colours, depth = self._fluid(fluid)
+        if walls is not None:
+            solid, place = self._walls(walls)
+            before = place < depth
+            veiled = before & np.isfinite(depth) & (not self._flat)
+            plain = before & ~veiled
+            colours[plain] = solid[plain]
+            colours[veiled] = (VEIL * solid[veiled].astype(np.float32) + (1 - VEIL) * colours[veiled]).astype(np.uint8)
+        return colours.reshape(down, FINER, across, FINER, 3).mean(axis=(1, 3), dtype=np.float32).astype(np.uint8)
+
+
 def cropped(pictures):
     """Cuts the same white edges off all."""
     used = np.any([np.any(p < 250, axis=2) for p in pictures], axis=0)
     rows, columns = np.flatnonzero(used.any(axis=1)), np.flatnonzero(used.any(axis=0))
     if len(rows) == 0:
         return pictures
-    edge = WIDTH // 80
+    edge = LONGEST // 80
     top, left = max(rows[0] - edge, 0), max(columns[0] - edge, 0)
     return [p[top:rows[-1] + edge, left:columns[-1] + edge] for p in pictures]
-
-
-def caption(run):
-    counts = run.summary().get("particles", {})
-    parts = [f"{name}: {words}" for name, words in run.fluids_in_words().items()]
-    parts.append(f"spacing {1000 * run.spacing:.3g} mm")
-    if counts.get("fluid"):
-        parts.append(f"{counts['fluid']:,} particles".replace(",", "\u202f"))
-    return "; ".join(parts)
-
-
-def draw(runs, times, colour, path):
-    """Writes the picture: for one run its times in a grid, for several a column each. `times`: in seconds, or None."""
-    if len({run.dimensions for run in runs}) > 1:
-        raise SurfaceError("some runs have two dimensions, some three: allowed: runs of one kind")
-    steps = [run.nearest_steps(times) if times else run.typical_steps() for run in runs]
-    rows = min(len(s) for s in steps)
-    steps = [s[:rows] for s in steps]
-    quantities = [Quantity(run, s, colour) for run, s in zip(runs, steps)]
-    limits = (min(q.limits[0] for q in quantities), max(q.limits[1] for q in quantities))
-    for quantity in quantities:
-        quantity.share(limits)
-    box = box_of(runs, steps)
-    pictures = [render(Meshes(run, quantity), s, box) for run, quantity, s in zip(runs, quantities, steps)]
-    flat = cropped([picture for column in pictures for picture in column])
-    pictures = [flat[k * rows:(k + 1) * rows] for k in range(len(runs))]
-    figure_of(runs, steps, pictures, quantities[0], path)
-
-
-def grid(runs, rows, picture):
-    """Rows and columns of the figure, and the place of the picture of a run and row."""
-    if len(runs) > 1:
-        return rows, len(runs), lambda run, row: (row, run)
-    shape = picture.shape[1] / picture.shape[0]
-    columns = min(rows, 4 if shape < 0.8 else 2 if shape < 2.2 else 1)
-    return -(-rows // columns), columns, lambda run, row: divmod(row, columns)
-
-
-def figure_of(runs, steps, pictures, quantity, path):
-    tall, wide = pictures[0][0].shape[:2]
-    rows, columns, place = grid(runs, len(pictures[0]), pictures[0][0])
-    across = min(4.6 if columns > 1 else 7.0, 11.0 / columns, TALLEST * wide / tall)  # inches
-    height = across * tall / wide
-    total = (max(columns * across, NARROWEST), HEAD + rows * (height + ROW_GAP) + FOOT)
-    figure = plt.figure(figsize=total, facecolor="white")
-    titles = titles_of(runs)
-    for k, run in enumerate(runs):
-        for row, picture in enumerate(pictures[k]):
-            down, right = place(k, row)
-            top = total[1] - HEAD - down * (height + ROW_GAP) - ROW_GAP
-            left = 0.5 + (right - columns / 2) * across / total[0]
-            axes = figure.add_axes([left, (top - height) / total[1], across / total[0], height / total[1]])
-            axes.imshow(picture, interpolation="antialiased")
-            axes.axis("off")
-            time = f"t = {run.fluid.times[steps[k][row]]:.3g} s"
-            axes.set_title(f"{titles[k]}, {time}" if len(runs) > 1 else time, loc="left", fontsize=9, pad=2)
-    names = list(dict.fromkeys(run.title for run in runs))
-    title = textwrap.shorten(", ".join(names).replace("_", " "), int(9 * total[0]), placeholder=" and more")
-    figure.suptitle(title, fontsize=12, y=1 - 0.18 / total[1], va="center")
-    colour_key(figure, runs, quantity, total)
-    captions = [caption(run) for run in runs]
-    words = textwrap.fill(captions[0] if len(set(captions)) == 1 else "fluids and spacings differ", int(17 * total[0]))
-    figure.text(0.5, 0.5 * FOOT / total[1], words, ha="center", va="center", fontsize=7.5, color="0.35", linespacing=1.4)
-    figure.savefig(path, dpi=DPI)
-    plt.close(figure)
-
-
-def titles_of(runs):
-    """What tells runs apart: the keys that differ, else their folders."""
-    if len(runs) == 1:
-        return [""]
-    flat = [run.keys() for run in runs]
-    given = [name for name in flat[0] if not name.startswith(("case.", "output.", "limits.", "numerics.sound_speed"))]
-    names = [name for name in given if len({repr(f.get(name)) for f in flat}) > 1]
-    if not names or len(names) > 3:
-        several = len({run.path.name for run in runs}) < len(runs)
-        return [f"{run.path.parent.name}/{run.path.name}" if several else run.path.name for run in runs]
-    return [textwrap.shorten(", ".join(f"{name.split('.')[-1]} = {f.get(name)}" for name in names), 60) for f in flat]
-
-
-def fluid_names(runs):
-    """By number; where runs call it otherwise, all names."""
-    lists = [list(run.fluids_in_words()) for run in runs]
-    return ["/".join(dict.fromkeys(names[k] for names in lists if k < len(names))) for k in range(max(map(len, lists)))]
-
-
-def colour_key(figure, runs, quantity, total):
-    """A colour bar, or the names of what there are few of."""
-    if quantity.few:
-        names = fluid_names(runs) if quantity.name == "fluid" else ["rigid", "flowing"]
-        marks = [plt.Line2D([], [], marker="s", linestyle="", color=quantity.map(k % quantity.map.N), label=name, markersize=7)
-                 for k, name in enumerate(names)]
-        figure.legend(handles=marks, loc="center", bbox_to_anchor=(0.5, 1 - 0.5 / total[1]), ncol=len(marks), frameon=False, fontsize=8)
-        return
-    length = min(3.2, 0.6 * total[0]) / total[0]
-    axes = figure.add_axes([0.5 - length / 2, 1 - 0.5 / total[1], length, 0.1 / total[1]])
-    bar = figure.colorbar(ScalarMappable(Normalize(*quantity.limits), quantity.map), cax=axes, orientation="horizontal", extend="max")
-    bar.outline.set_linewidth(0.4)
-    bar.ax.tick_params(labelsize=7, length=2, pad=1)
-    bar.set_label(quantity.label, fontsize=8, labelpad=1)
-
-
-def main():
-    """Called by scripts/plot with the Python that has the tools."""
-    parser = argparse.ArgumentParser(prog="plotting.surface", description=__doc__)
-    parser.add_argument("folders", nargs="+", type=Path)
-    parser.add_argument("--picture", type=Path, required=True)
-    parser.add_argument("--colour", choices=QUANTITIES, default="speed")
-    parser.add_argument("--times", type=float, nargs="*")
-    arguments = parser.parse_args()
-    try:
-        tools()
-        draw([RunFolder(folder) for folder in arguments.folders], arguments.times, arguments.colour, arguments.picture)
-    except (SurfaceError, RunFolderError, OSError) as error:
-        print(error)
-        return 1
-    except KeyError as error:
-        print(f"the run has not written what {arguments.colour!r} needs: {error}")
-        return 1
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from plotting.run_folder import RunFolder
+import slagflow
 
 
 @dataclass(frozen=True)
@@ -104,7 +104,7 @@ class Result:
 
     def __init__(self, run, folder):
         self.run = run
-        self._folder = RunFolder(folder)
+        self._folder = slagflow.open(folder)
         self.case = tomllib.loads((folder / "case.toml").read_text())
         self.spacing = self._folder.spacing
         self.times = np.array(self._folder.fluid.times)
@@ -115,7 +115,7 @@ class Result:
 
     @property
     def history(self):
-        return self._folder.history()
+        return self._folder.columns()
 
     def state(self, time=None):
         """The snapshot nearest to a time; the last without one."""
