@@ -61,8 +61,7 @@ class ParticleArrays {
   template <class Visit>
   void each(Fate fate, Visit visit) const {
     each([&](auto& array) {
-      const bool absent = has(array.field.fate, Fate::optional) && array.size() == 0;
-      if (has(array.field.fate, fate) && !absent) visit(array);
+      if (has(array.field.fate, fate) && !array.absent()) visit(array);
     });
   }
 
@@ -85,13 +84,20 @@ class ParticleArray : public Buffer<T> {
   ParticleArray& operator=(const ParticleArray&) = delete;
 
   const ParticleField field;
+
+  // An optional array is there from when it is filled, or said to be used: there may be no particles yet.
+  void use() { used_ = true; }
+  bool absent() const { return has(field.fate, Fate::optional) && !used_ && this->size() == 0; }
+
+ private:
+  bool used_ = false;
 };
 
 inline void ParticleArrays::resize(Index n) {
   if (n > capacity_) capacity_ = larger(n, capacity_ + capacity_ / 4);
   count = n;
   each([&](auto& array) {
-    if (has(array.field.fate, Fate::optional) && array.size() == 0) return;
+    if (array.absent()) return;
     array.reserve(capacity_);
     array.resize(n);
   });

@@ -202,6 +202,7 @@ void Heat::start(const SimulationSetup& s, const std::vector<double>& remembered
       enthalpy.push_back(enthalpy_at(p.fluid[i], p.temperature.at(i)));
   for (std::size_t i = 0; i < p.fluid.size(); ++i) start_ += particle_mass(s, p.fluid[i]) * enthalpy[i];
   for (std::size_t kind = 0; kind < s.fluids.size(); ++kind) masses_.push_back(particle_mass(s, kind));
+  fluid.enthalpy.use(), fluid.heat.use(), fluid.melt.use();
   fluid.enthalpy.upload(enthalpy);
   fluid.heat.upload(std::vector<Quad>(enthalpy.size())),
       fluid.melt.upload(std::vector<Quad>(enthalpy.size()));

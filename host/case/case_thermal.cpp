@@ -13,7 +13,8 @@ bool complete(const MaterialSetup& m) { return !m.heat_capacity.empty() && !m.co
 
 // The liquid is as viscous as that between its solidus and the hottest fluid.
 void check_viscosity(const Case& c, const FluidSpec& fluid, CaseProblems& problems) {
-  constexpr double least = 1e-6, most = 1e9;  // [Pa s]
+  constexpr double least = 1e-6;  // [Pa s]
+  const double most = fluid.material.max_viscosity;  // at the hottest, or all of it would be solid
   const LiquidViscosity& liquid = fluid.material.liquid;
   const std::string key = "fluid." + fluid.name + ".liquid_viscosity";
   if (liquid.law == LiquidLaw::constant || !problems.fine_within("fluid." + fluid.name)) return;

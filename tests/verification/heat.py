@@ -21,6 +21,7 @@ def runs(quick):
               *(Run(f"heat_slab_{biot}", "heat_slab", f"slab, contact, Biot {biot}", contact(biot)) for biot in (1, 5, 50)),
               Run("heat_steel", "heat_steel", "steel, 1 mm"),
               Run("heat_freezing", "heat_freezing", "freezing, 1 mm"),
+              Run("skull", "/skull", "skull, 40 across"),
               Run("heat_sheet", "heat_sheet", "sheet, 20 across"),
               Run("heat_sheet_radiation", "heat_sheet", "sheet, 20 across, radiation", RADIATION)]
     flows = [Run("heat_poiseuille", "heat_poiseuille", "channel of two temperatures, 20 across"),
@@ -43,7 +44,7 @@ def contact(biot):
 
 
 def rows(results):
-    by_case = {"heat_slab": slab_rows, "heat_steel": steel_rows, "heat_freezing": freezing_rows, "heat_sheet": sheet_rows,
+    by_case = {"heat_slab": slab_rows, "heat_steel": steel_rows, "heat_freezing": freezing_rows, "/skull": skull_rows, "heat_sheet": sheet_rows,
                "heat_sphere": sphere_rows, "heat_poiseuille": poiseuille_rows, "heat_crust": crust_rows,
                "heat_couette": couette_rows, "heat_layer": layer_rows}
     found = []
@@ -111,6 +112,21 @@ def freezing_rows(result):
     front = result.summary["measures"]["crust"]["volume"] / width(result)
     return [bound_row(result.resolution, "front off its place [spacings]", abs(front - exact.front(time)) / dx, (None, 0.5)),
             relative_row(result.resolution, "heat to the wall [J/m²]", heat_to(result, "floor"), exact.heat(time), 0.005)]
+
+
+def skull_rows(result):
+    """Steady: the potential is linear between the panel's contact and the bath."""
+    case, across = result.case, 0.04
+    slag = forms.Material(case["fluid"]["slag"]["heat_capacity"], case["fluid"]["slag"]["conductivity"])
+    bath, panel, transfer = 1773, case["wall"][0]["temperature"], case["wall"][0]["contact_heat_transfer"]
+    touch = forms.bisect(lambda t: transfer * (t - panel) - (slag.potential(bath) - slag.potential(t)) / across, panel, bath)
+    flux = transfer * (touch - panel)
+    thick = (slag.potential(1473) - slag.potential(touch)) / flux
+    height = case["domain"]["max"][2] - case["domain"]["min"][2]
+    measures = result.summary["measures"]
+    return [relative_row(result.resolution, "heat to the panel [W/m²]", measures["to_panel"]["rate"] / height, float(flux), 0.01),
+            bound_row(result.resolution, "thickness off [spacings]",
+                      abs(measures["skull"]["volume"] / height - float(thick)) / result.spacing, (None, 1))]
 
 
 def sheet_rows(result):

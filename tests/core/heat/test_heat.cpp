@@ -153,8 +153,12 @@ TEST(Heat, SolidFluidKeepsItsShape) {
     EXPECT_NEAR(norm(now.position[k] - now.position[0]), norm(start[k] - start[0]), 2e-3 * dx) << k;
 }
 
-TEST(Heat, ComesInWithTheFluidOfAnInlet) {
+// Also where there is no fluid yet.
+class HeatOfInlets : public testing::TestWithParam<bool> {};
+
+TEST_P(HeatOfInlets, ComesIn) {
   SimulationSetup s = hot_dam();
+  if (GetParam()) s.particles = {};
   for (const double t : {1650.0}) {
     InletSetup in;
     in.name = "feed", in.body = s.bodies.size(), in.fluid = 0, in.normal = {1, 0, 0}, in.stride = dx;
@@ -177,7 +181,11 @@ TEST(Heat, ComesInWithTheFluidOfAnInlet) {
   ASSERT_GT(t.fed.at(0), 20);
   EXPECT_GT(t.heat.fed, 0);
   EXPECT_NEAR(t.heat.error(), 0, 1e-6 * (t.heat.surface + t.heat.walls.at(0)));
+  EXPECT_NEAR(t.heat.hottest, GetParam() ? 1650 : 1700, 1);
 }
+
+INSTANTIATE_TEST_SUITE_P(Vessels, HeatOfInlets, testing::Values(false, true),
+                         [](const auto& test) { return test.param ? "Empty" : "Filled"; });
 
 }  // namespace
 }  // namespace slagflow
