@@ -30,8 +30,7 @@ struct PlaceWall {
     }
     const Vec3d arm = start[k] - pose.center, x = pose.target + pose.turn * arm;
     const Quad n = start_normal[k], along = turned(pose.turn, start_velocity[k]);
-    const Vec3d surface = arm + static_cast<double>(n.w) * to_double(xyz(n));
-    const Vec3d v = inverse_dt * (pose.shift_gain + pose.turn_gain * surface);
+    const Vec3d v = inverse_dt * (pose.shift_gain + pose.turn_gain * arm);
     place[i] = quad(to_real(x), pose.removed ? Real(1) : Real(0));
     moved[i] = quad(to_real(pose.shift_gained + pose.turn_gained * arm) + last_dt * xyz(along), 0);
     normal[i] = turned(pose.turn, n);
@@ -44,10 +43,11 @@ struct PlaceWall {
 };
 
 // What WallArrays::velocity holds of a surface that moves while the wall keeps its shape: the velocity of the
-// point of the surface above the wall particle, and only what lies along the surface, so that the wall does
-// not move the fluid out of its way.
-Quad surface_velocity(const WallBody& body, Vec3d position, Vec3d normal, double depth) {
-  Vec3d v = body.surface.at(position + depth * normal);
+// material where the wall particle is, and only what lies along the surface, so that the wall does not move
+// the fluid out of its way. (That of the point of the surface above would turn a ring of fluid on a roll of
+// radius R faster than the roll, by a spacing/2R: in a rigid motion x_iw.u_iw is nought between the places.)
+Quad surface_velocity(const WallBody& body, Vec3d position, Vec3d normal) {
+  Vec3d v = body.surface.at(position);
   v -= dot(v, normal) * normal;
   const double slip = body.slip == WallSlip::free_slip ? -1 : body.slip_length;
   return quad(to_real(v), static_cast<Real>(slip));
@@ -91,7 +91,7 @@ void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
     place[i] = quad(to_real(position[i]), 0);
     normal[i] = quad(to_real(w.normal[i]), static_cast<Real>(w.depth[i]));
     if (!w.back_depth.empty()) back[i] = quad(to_real(w.back_normal[i]), static_cast<Real>(w.back_depth[i]));
-    velocity[i] = surface_velocity(body, w.position[i], w.normal[i], w.depth[i]);
+    velocity[i] = surface_velocity(body, w.position[i], w.normal[i]);
     id[i] = static_cast<Index>(i);
     surface_speed_ = larger(surface_speed_, static_cast<double>(norm(xyz(velocity[i]))));
     radius_[w.body[i]] = larger(radius_[w.body[i]], norm(w.position[i] - body.motion.center));
