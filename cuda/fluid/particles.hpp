@@ -70,7 +70,8 @@ struct WallArrays : ParticleArrays {
   ParticleArray<Quad> velocity{
       *this,
       {"wall_velocity", "m/s, m",
-       "xyz: of the surface in this step, w: slip length, 0 no slip, < 0 free slip", Fate::sorted}};
+       "xyz: of the wall's material there in this step, w: slip length, 0 no slip, < 0 free slip",
+       Fate::sorted}};
   // Empty where no wall ever moves:
   ParticleArray<Quad> acceleration{
       *this, {"wall_acceleration", "m/s^2", "xyz: of the wall's material", Fate::sorted | Fate::optional}};

@@ -121,5 +121,22 @@ TEST(MovingWalls, OilInABoxThatAcceleratesHasTheEffectiveGravity) {
   EXPECT_LT(p.rest / (density * a * side), 0.03);
 }
 
+// A crust of 1e6 Pa s keeps to the roll that it sits on, and its density: nothing shears it.
+TEST(MovingWalls, ARollCarriesItsCrustAlong) {
+  Flow flow("verification/ring_on_roll.toml");
+  const FluidSnapshot before = flow.snapshot();
+  flow.run(0.3);
+  const FluidSnapshot after = flow.snapshot();
+  const double turn = 1.5 * flow.simulation().time();
+  for (std::size_t i = 0; i < before.id.size(); ++i) {
+    const Vec3d &a = before.position[i], &b = after.position[i];
+    const double along = a.x * std::cos(turn) + a.z * std::sin(turn),
+                 up = a.z * std::cos(turn) - a.x * std::sin(turn);
+    EXPECT_NEAR(b.x, along, 2e-5) << i;
+    EXPECT_NEAR(b.z, up, 2e-5) << i;
+  }
+  EXPECT_LT(flow.simulation().largest_compression().value, 1e-3);
+}
+
 }  // namespace
 }  // namespace slagflow

@@ -25,7 +25,7 @@ def runs(quick):
               Run("heat_sheet", "heat_sheet", "sheet, 20 across"),
               Run("heat_sheet_radiation", "heat_sheet", "sheet, 20 across, radiation", RADIATION)]
     flows = [Run("heat_poiseuille", "heat_poiseuille", "channel of two temperatures, 20 across"),
-             Run("heat_crust", "heat_crust", "melt over crust, 20 across")]
+             Run("heat_crust", "heat_crust", "melt over crust, 20 across"), Run("ring_on_roll", "ring_on_roll", "crust on a roll")]
     if quick:
         return static + flows
     return [*static, Run("heat_sphere", "heat_sphere", "sphere, radius 10"), *flows,
@@ -45,7 +45,7 @@ def contact(biot):
 
 def rows(results):
     by_case = {"heat_slab": slab_rows, "heat_steel": steel_rows, "heat_freezing": freezing_rows, "/skull": skull_rows, "heat_sheet": sheet_rows,
-               "heat_sphere": sphere_rows, "heat_poiseuille": poiseuille_rows, "heat_crust": crust_rows,
+               "heat_sphere": sphere_rows, "heat_poiseuille": poiseuille_rows, "heat_crust": crust_rows, "ring_on_roll": ring_rows,
                "heat_couette": couette_rows, "heat_layer": layer_rows}
     found = []
     for result in results:
@@ -171,6 +171,19 @@ def crust_rows(result):
     return [profile_row(result.resolution, "velocity of the melt", u, exact, 0.02),
             relative_row(result.resolution, "flow of the melt [m/s]", float(np.mean(u)), float(np.mean(exact)), 0.02),
             bound_row(result.resolution, "crust, over the melt", crust / float(np.mean(u)), (None, 1e-4))]
+
+
+def ring_rows(result):
+    def around(time):
+        places = result.ordered(time)
+        return places[:, 0] + 1j * places[:, 2]
+    end = float(result.times[-1])
+    start, now = around(0), around(end)
+    angle = abs(float(np.angle(np.sum(now * np.conj(start)))))
+    return [relative_row(result.resolution, "angle of the crust [rad]", angle, 1.5 * end, 1e-3),
+            bound_row(result.resolution, "largest compression", result.summary["max_compression"], (None, 1e-3)),
+            bound_row(result.resolution, "change of radius [spacings]",
+                      float(np.max(np.abs(np.abs(now) - np.abs(start)))) / result.spacing, (None, 0.02))]
 
 
 def couette_rows(result):
