@@ -142,8 +142,11 @@ int help(const Arguments& arguments, const CLI::App& app) {
       print(man_page(command_line(app), SLAGFLOW_VERSION));
       return 0;
     default:
-      print(key_help(arguments.topic));
+      break;
   }
+  for (const CLI::App* command : app.get_subcommands({}))
+    if (command->get_name() == arguments.topic) return print(command->help()), 0;
+  print(key_help(arguments.topic));
   return 0;
 }
 
@@ -177,7 +180,8 @@ void add_run_options(CLI::App* command, RunOptions& run) {
 
 CLI::App* add_help(CLI::App& app, Arguments& arguments) {
   CLI::App* const command = app.add_subcommand("help", "what the keys of a case file mean");
-  command->add_option("topic", arguments.topic, "key or table; without it all tables")->type_name("KEY");
+  command->add_option("topic", arguments.topic, "key, table or command; without it all tables")
+      ->type_name("KEY");
   const auto form = [&](const char* name, HelpForm value, const char* what) {
     command->add_flag_callback(
         name, [&arguments, value] { arguments.help = value; }, what);

@@ -2,29 +2,11 @@
 
 #include <string>
 #include <tuple>
-#include <vector>
 
 #include "host/case/case_table.hpp"
 
 namespace slagflow {
 namespace {
-
-void take_model(const std::string& name, RheometryOptions& options) {
-  for (const FlowModel model : flow_models)
-    if (name == name_of(model)) options.model = model;
-  for (const LiquidLaw law : melt_laws)
-    if (name == name_of(law)) options.law = law;
-  for (const SlagModel model : slag_models)
-    if (name == name_of(model)) options.slag_model = model;
-}
-
-std::vector<std::string> models() {
-  std::vector<std::string> names{"auto"};
-  for (const FlowModel model : flow_models) names.push_back(name_of(model));
-  for (const LiquidLaw law : melt_laws) names.push_back(name_of(law));
-  for (const SlagModel model : slag_models) names.push_back(name_of(model));
-  return names;
-}
 
 void add_facts(CLI::App* command, SampleFacts& facts) {
   for (const auto& [name, fact, what] :
@@ -76,10 +58,10 @@ CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
   command->add_option("file", options.file, "readings, or a table of phases")->type_name("FILE.csv");
   command
       ->add_option_function<std::string>(
-          "--model", [&options](const std::string& name) { take_model(name, options); },
+          "--model", [&options](const std::string& name) { set_model(name, options); },
           "newtonian, bingham, herschel-bulkley; over temperature arrhenius, weymann, vft; of a composition "
           "urbain, riboud; or auto: the best by AICc")
-      ->check(CLI::IsMember(models()));
+      ->check(CLI::IsMember(model_names()));
   command->add_option("-o,--output", options.output, "the fluid's table; the curves go beside it")
       ->type_name("X.toml");
   add_facts(command, options.facts);

@@ -62,11 +62,18 @@ void require_readings(const ViscositySeries& series, const RheometryOptions& opt
 }
 
 std::size_t choose(const MeltResult& result, const RheometryOptions& options) {
-  if (result.fits.empty()) throw Error(options.file + ": no law of temperature fits the readings");
+  std::string others;
+  for (const MeltFit& one : result.fits) others += std::string(", ") + name_of(one.law);
+  if (result.fits.empty())
+    throw InputError(options.file +
+                     ": no law of temperature fits the readings: allowed: liquid_viscosity = "
+                     "[[temperature in K, viscosity], ...] in the case");
   if (!options.law) return 0;
   const auto found = std::find_if(result.fits.begin(), result.fits.end(),
                                   [&](const MeltFit& one) { return one.law == *options.law; });
-  if (found == result.fits.end()) fit(*options.law, result.series);
+  if (found == result.fits.end())
+    throw InputError(options.file + ": the law " + name_of(*options.law) +
+                     " fits with no constants that a case allows: allowed: auto" + others);
   return static_cast<std::size_t>(found - result.fits.begin());
 }
 
@@ -154,6 +161,9 @@ std::string to_table(const MeltResult& result, const Measurements& measured,
   text.back() = '\n';
   text += "# Measured from " + both_scales(t.front()) + " to " + both_scales(t.back()) +
           ". For a case with [thermal].\n";
+  if (result.kink)
+    text += "# From " + both_scales(result.kink->temperature) +
+            " down they are above the trend of the liquid, crystals?, and in the law all the same.\n";
   return text + melt_table(fluid_name(measured.facts, options.file), measured.facts, result.best().liquid());
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/rheometry/rheometry_composition.hpp"
 #include "host/rheometry/rheometry_data.hpp"
@@ -24,5 +25,9 @@ struct RheometryOptions {
   bool mole = false;              // in mole per cent
   std::optional<SlagModel> slag_model;
 };
+
+// Of all kinds, "auto" first.
+std::vector<std::string> model_names();
+void set_model(const std::string& name, RheometryOptions& options);
 
 }  // namespace slagflow

@@ -201,6 +201,8 @@ TEST_F(MeltCommand, LeavesOutWhatIsColder) {
   EXPECT_THAT(rheometry_command({input}).err,
               AllOf(HasSubstr("the viscosity rises above the trend"), HasSubstr("1720 K (1447 C) down"),
                     HasSubstr("--above 1720")));
+  EXPECT_THAT(rheometry_command({input}).out,
+              HasSubstr("# From 1720 K (1447 C) down they are above the trend"));
   const Said said = rheometry_command({input, "--above", "1720", "--density", "2700"});
   EXPECT_EQ(said.code, 0);
   EXPECT_THAT(said.err, Not(HasSubstr("trend")));
@@ -218,6 +220,11 @@ TEST_F(MeltCommand, WarnsOfWhatTheReadingsDoNotTell) {
   const std::string five = file("v.csv", "T_C,viscosity_Pas\n" + rows);
   EXPECT_THAT(rheometry_command({five, "--model", "vft"}).err,
               HasSubstr("5 readings are too few for the law vft: allowed: at least 6"));
+  const std::string straight = file("a.csv", csv_of(series_of(slag), "T_K,viscosity_Pas"));
+  const Said none = rheometry_command({straight, "--model", "vft"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err,
+              HasSubstr("the law vft fits with no constants that a case allows: allowed: auto, weymann"));
   const std::string rising = file("r.csv", "T_C,viscosity_Pas\n1400,1\n1450,2\n1500,3\n1550,4\n1600,5\n");
   EXPECT_THAT(rheometry_command({rising}).err, HasSubstr("does not fall while the temperature rises"));
 }
