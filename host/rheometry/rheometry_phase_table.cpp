@@ -48,16 +48,22 @@ bool is_number_at(const Record& record, const std::vector<PhaseColumn>& columns)
   return false;
 }
 
+bool has_number(const Record& record) {
+  return std::any_of(record.fields.begin(), record.fields.end(),
+                     [](const std::string& field) { return form_of(field) != NumberForm::no_number; });
+}
+
 std::optional<Layout> layout_of(const std::string& text, Separator separator, bool bare) {
   Layout layout{separator, split_records(text, separator).records, 0, 0, {}};
   const std::vector<Record>& records = layout.records;
   for (std::size_t k = 0; k + 1 < records.size(); ++k) {
     if (records[k].filled() < 2) continue;
     for (std::size_t row = k + 1; row < std::min(k + 3, records.size()); ++row) {
-      const Record& units = row == k + 1 ? Record{} : records[k + 1];
+      const bool between = row > k + 1 && !has_number(records[k + 1]);  // a row of units
+      const Record& units = between ? records[k + 1] : Record{};
       layout.columns = columns_of(records[k], units, bare);
       if (layout.columns.empty() || !is_number_at(records[row], layout.columns)) continue;
-      layout.names = k, layout.first_row = row;
+      layout.names = k, layout.first_row = between ? row : k + 1;
       return layout;
     }
   }
@@ -204,12 +210,21 @@ class PhaseReader {
     return value;
   }
 
+  // Text between the rows, but not a row whose temperature is none.
+  void leave_out(const Record& record) {
+    const std::string text = static_cast<std::size_t>(temperature_) < record.fields.size()
+                                 ? record.fields[static_cast<std::size_t>(temperature_)]
+                                 : "";
+    const bool is_row = has_number(record) && 2 * record.filled() >= layout_.columns.size();
+    if (is_row && !text.empty() && !stands_for_no_number(text))
+      problem(record.line,
+              "column '" + column(temperature_)->name + "': value " + quoted(text) + " is not a number");
+    ++left_out_;
+  }
+
   void take_row(const Record& record) {
     if (record.filled() < 2) return;
-    if (!is_number_at(record, layout_.columns)) {
-      ++left_out_;
-      return;
-    }
+    if (!is_number_at(record, layout_.columns)) return leave_out(record);
     const PhaseColumn& t = *column(temperature_);
     const double kelvin = t.factor * number(record, temperature_).value_or(0) + t.offset;
     const QuantityInfo& believable = info(Quantity::temperature);

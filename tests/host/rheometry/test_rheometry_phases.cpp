@@ -206,6 +206,8 @@ TEST(PhaseTable, RefusesWhatItCannotUse) {
               HasSubstr("x.csv:3: column 'solid fraction': value \"x\" is not a number"));
   EXPECT_THAT(refusal("T(K),solid fraction\n1400,1\n1500,1.2\n1600,0\n"),
               HasSubstr("x.csv:3: column 'solid fraction': value 1.2: allowed: 0 to 1"));
+  EXPECT_THAT(refusal("T(K),solid fraction\n14NaN,1\n1500,0.5\n1600,0\n"),
+              HasSubstr("x.csv:2: column 'T(K)': value \"14NaN\" is not a number"));
   EXPECT_THAT(refusal("T(K),solid fraction\n14,1\n1500,0.5\n1600,0\n"), HasSubstr("14 K: allowed: > 200"));
   EXPECT_THAT(refusal("T(K),solid fraction\n1400,0.5\n1500,0.3\n1600,0\n"),
               HasSubstr("at its lowest temperature, 1400 K, the solid fraction is 0.5"));
