@@ -108,6 +108,19 @@ class Plot(unittest.TestCase):
         self.assertEqual(done.stdout.strip(), str(self.folder / "oil.png"))
         self.assertEqual((self.folder / "oil.png").read_bytes()[:4], b"\x89PNG")
 
+    def test_draws_what_is_over_temperature(self):
+        self.folder.mkdir()
+        for name, text in (
+            ("melt", "temperature_K,measured_Pas,weymann_Pas,vft_Pas\n1600,1,1.1,1\n1800,0.2,0.2,0.2\n1590,,1.2,1.1\n1810,,0.2,0.2\n"),
+            ("slag", "temperature_K,measured_Pas,urbain_Pas,riboud_Pas\n1600,,1.1,1\n1800,,0.2,0.3\n"),
+            ("phases", "temperature_K,measured_solid_fraction,rows_solid_fraction\n1400,1,1\n1600,0,0\n1400,,1\n1600,,0\n"),
+        ):
+            curves = self.folder / f"{name}.csv"
+            curves.write_text(text)
+            done = self.plot(curves)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual((self.folder / f"{name}.png").read_bytes()[:4], b"\x89PNG")
+
     def test_draws_a_case_before_it_is_run(self):
         made = self.folder.parent / "made"
         made.mkdir()

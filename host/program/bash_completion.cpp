@@ -3,6 +3,7 @@
 #include "host/case/case_catalogue.hpp"
 #include "host/program/command_line.hpp"
 #include "host/program/init.hpp"
+#include "host/rheometry/rheometry_options.hpp"
 
 namespace slagflow {
 namespace {
@@ -56,6 +57,12 @@ std::string topics() {
 std::string templates() {
   std::string text;
   for (const CaseTemplate& one : case_templates()) text += (text.empty() ? "" : " ") + std::string(one.name);
+  return text;
+}
+
+std::string models() {
+  std::string text;
+  for (const std::string& name : model_names()) text += (text.empty() ? "" : " ") + name;
   return text;
 }
 
@@ -115,6 +122,10 @@ _slagflow() {
       COMPREPLY=($(compgen -W '@TEMPLATES@' -- "$cur"))
       return
       ;;
+    --model)
+      COMPREPLY=($(compgen -W '@MODELS@' -- "$cur"))
+      return
+      ;;
     --from)
       COMPREPLY=($(compgen -d -- "$cur"))
       return
@@ -137,10 +148,10 @@ complete -F _slagflow slagflow
 std::string bash_completion(const CommandLine& line) {
   std::string options, text = script;
   for (const Command& command : line.commands) options += branch(command.name, options_of(command));
-  for (const auto& [mark, words] :
-       {std::pair{"@VALUES@", values()}, std::pair{"@OPTIONS@", options},
-        std::pair{"@COMMANDS@", commands_of(line)}, std::pair{"@KEYS@", keys_to_set()},
-        std::pair{"@TOPICS@", topics()}, std::pair{"@TEMPLATES@", templates()}})
+  for (const auto& [mark, words] : {std::pair{"@VALUES@", values()}, std::pair{"@OPTIONS@", options},
+                                    std::pair{"@COMMANDS@", commands_of(line)},
+                                    std::pair{"@KEYS@", keys_to_set()}, std::pair{"@TOPICS@", topics()},
+                                    std::pair{"@TEMPLATES@", templates()}, std::pair{"@MODELS@", models()}})
     for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark))
       text.replace(at, std::string(mark).size(), words);
   return text;

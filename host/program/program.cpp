@@ -23,6 +23,7 @@
 #include "host/program/info.hpp"
 #include "host/program/init.hpp"
 #include "host/program/key_help.hpp"
+#include "host/program/rheometry_command.hpp"
 #include "host/rheometry/rheometry.hpp"
 #include "host/run/check.hpp"
 #include "host/run/run.hpp"
@@ -65,14 +66,7 @@ int report(const RunOutcome& outcome) {
   return outcome.exit_code();
 }
 
-// As the keys of a case.
-const CLI::Validator above_zero(
-    [](const std::string& text) {
-      double value = 0;
-      if (CLI::detail::lexical_cast(text, value) && above(0, "").holds(value)) return std::string();
-      return "value " + text + ": allowed: " + above(0, "").text();
-    },
-    "");
+const CLI::Validator above_zero = number_above_zero();
 
 const CLI::Validator not_empty(
     [](const std::string& text) { return text.empty() ? "value \"\": allowed: a folder" : std::string(); },
@@ -148,8 +142,11 @@ int help(const Arguments& arguments, const CLI::App& app) {
       print(man_page(command_line(app), SLAGFLOW_VERSION));
       return 0;
     default:
-      print(key_help(arguments.topic));
+      break;
   }
+  for (const CLI::App* command : app.get_subcommands({}))
+    if (command->get_name() == arguments.topic) return print(command->help()), 0;
+  print(key_help(arguments.topic));
   return 0;
 }
 
@@ -181,43 +178,10 @@ void add_run_options(CLI::App* command, RunOptions& run) {
       "--overwrite", [&run] { run.overwrite = Overwrite::replace; }, "replace an earlier run in the folder");
 }
 
-CLI::App* add_rheometry(CLI::App& app, RheometryOptions& options) {
-  CLI::App* const command = app.add_subcommand("rheometry", "fit rheologies to a viscometer's readings");
-  command->add_option("file", options.file, "readings")->required()->type_name("FILE.csv");
-  command
-      ->add_option_function<std::string>(
-          "--model",
-          [&options](const std::string& name) {
-            for (const FlowModel model : flow_models)
-              if (name == name_of(model)) options.model = model;
-          },
-          "newtonian, bingham, herschel-bulkley, or auto: the best by AICc")
-      ->check(CLI::IsMember({"auto", "newtonian", "bingham", "herschel-bulkley"}));
-  command->add_option("-o,--output", options.output, "the fluid's table; the curves go beside it")
-      ->type_name("X.toml");
-  SampleFacts& facts = options.facts;
-  for (const auto& [name, fact, what] :
-       {std::tuple{"--bob-radius", &facts.bob_radius, "of concentric cylinders [m]"},
-        std::tuple{"--cup-radius", &facts.cup_radius, "of concentric cylinders [m]"},
-        std::tuple{"--height", &facts.height, "of the wetted bob [m]"},
-        std::tuple{"--full-scale-torque", &facts.full_scale_torque, "where torque is in per cent [N m]"},
-        std::tuple{"--density", &facts.density, "of the fluid [kg/m^3]"}})
-    command->add_option(name, *fact, what)->check(above_zero);
-  command->add_option("--spindle", facts.spindle, "of Brookfield: LV-1 to LV-4, RV-1 to RV-7");
-  command->add_option("--table", facts.table, "take this one of several tables in the file, from 1")
-      ->check(CLI::Range(1, 10000));
-  command->add_option("--name", facts.name, "of the fluid (default: the name of the file)");
-  command->add_option("--growth-exponent", options.growth_exponent, "m of the fluid's table [s]")
-      ->check(above_zero);
-  command->add_flag_callback(
-      "--relative-errors", [&options] { options.errors = ErrorModel::relative; },
-      "the readings are uncertain by the same share, not by the same stress");
-  return command;
-}
-
 CLI::App* add_help(CLI::App& app, Arguments& arguments) {
   CLI::App* const command = app.add_subcommand("help", "what the keys of a case file mean");
-  command->add_option("topic", arguments.topic, "key or table; without it all tables")->type_name("KEY");
+  command->add_option("topic", arguments.topic, "key, table or command; without it all tables")
+      ->type_name("KEY");
   const auto form = [&](const char* name, HelpForm value, const char* what) {
     command->add_flag_callback(
         name, [&arguments, value] { arguments.help = value; }, what);

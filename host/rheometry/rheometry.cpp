@@ -1,44 +1,20 @@
 #include "host/rheometry/rheometry.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
 
 #include "backend/error.hpp"
-#include "host/case/case_rules.hpp"
 #include "host/case/toml_reader.hpp"
-#include "host/output/provenance.hpp"
-#include "host/run/run_folder.hpp"
+#include "host/rheometry/rheometry_melt.hpp"
+#include "host/rheometry/rheometry_phases.hpp"
+#include "host/rheometry/rheometry_slag.hpp"
 
 namespace slagflow {
 namespace {
 
 constexpr double close_call = 2;       // AICc: a smaller difference does not tell two models apart
 constexpr double most_flow_index = 2;  // that a case file allows
-
-// In the first line of what is written.
-constexpr const char *table_mark = " by slagflow ", *curves_mark = ",measured_Pa";
-
-template <class... Arguments>
-std::string print(const char* pattern, Arguments... arguments) {
-  std::array<char, 300> text{};
-  std::snprintf(text.data(), text.size(), pattern, arguments...);
-  return text.data();
-}
-
-// Six significant digits are more than any viscometer has.
-double rounded(double value) { return std::strtod(print("%.6g", value).c_str(), nullptr); }
-
-struct NamedEstimate {
-  const char* key;
-  const char* unit;
-  Estimate estimate;
-};
 
 std::vector<NamedEstimate> estimates(const FlowFit& fit) {
   switch (fit.model) {
@@ -53,24 +29,6 @@ std::vector<NamedEstimate> estimates(const FlowFit& fit) {
   }
 }
 
-std::string interval(const NamedEstimate& e) {
-  const std::string unit = *e.unit ? std::string(" ") + e.unit : "";
-  if (e.estimate.low == e.estimate.high)
-    return print("%s %.5g%s (held)", e.key, e.estimate.value, unit.c_str());
-  return print("%s %.5g%s (%.5g to %.5g)", e.key, e.estimate.value, unit.c_str(), e.estimate.low,
-               e.estimate.high);
-}
-
-std::string fluid_name(const RheometryResult& result, const std::string& file) {
-  if (result.measured.facts.name) return *result.measured.facts.name;
-  std::string name = std::filesystem::path(file).stem().string();
-  for (char& c : name)
-    if (!is_plain_name(std::string(1, c)) && c != '-') c = '_';
-  if (!is_plain_name(name)) name = "fluid_" + name;
-  std::replace(name.begin(), name.end(), '.', '_');
-  return name;
-}
-
 // Index of the wanted model, else of the best one. A wanted model that is missing did not converge: trying
 // again says so.
 std::size_t choose(const RheometryResult& result, const RheometryOptions& options) {
@@ -79,33 +37,6 @@ std::size_t choose(const RheometryResult& result, const RheometryOptions& option
   const auto found = std::find_if(result.fits.begin(), result.fits.end(), is_wanted);
   if (found == result.fits.end()) fit(*options.model, result.measured.curve, options.errors);
   return static_cast<std::size_t>(found - result.fits.begin());
-}
-
-// What an earlier fit left may be replaced, other files not. `mark` is in the first line of such a file.
-void require_own(const std::string& path, const std::string& mark) {
-  std::ifstream file(path);
-  std::string line;
-  if (!std::getline(file, line) || line.find(mark) != std::string::npos) return;
-  throw InputError("output " + path + ": is there and not by slagflow rheometry: allowed: another name");
-}
-
-// Before anything is written. Returns the path of the curves.
-std::string require_output(const RheometryOptions& options) {
-  std::filesystem::path path(options.output);
-  if (path.extension() != ".toml")
-    throw InputError("output " + options.output + ": allowed: a name that ends in .toml");
-  std::string curves = path.replace_extension(".csv").string();
-  std::error_code ignored;
-  if (std::filesystem::equivalent(curves, options.file, ignored))
-    throw InputError("output " + options.output + ": its curves would replace the measurements in " + curves +
-                     ": allowed: another name");
-  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-  if (!std::filesystem::is_directory(folder, ignored) || ::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw InputError("output " + options.output + ": " + folder +
-                     " is no folder that can be written to: allowed: a name in one");
-  require_own(options.output, table_mark);
-  require_own(curves, curves_mark);
-  return curves;
 }
 
 void add_fit_warnings(RheometryResult& result, const RheometryOptions& options) {
@@ -175,9 +106,9 @@ std::vector<double> curve_rates(const std::vector<double>& measured) {
 
 }  // namespace
 
-RheometryResult analyse(const RheometryOptions& options) {
+RheometryResult analyse(const Measurements& measured, const RheometryOptions& options) {
   RheometryResult result;
-  result.measured = read_measurements(options.file, options.facts);
+  result.measured = measured;
   result.warnings = result.measured.warnings;
   const FlowCurve& curve = result.measured.curve;
   const std::size_t count = curve.rate.size();
@@ -238,18 +169,14 @@ std::string to_text(const RheometryResult& result) {
 
 std::string to_fluid_table(const RheometryResult& result, const RheometryOptions& options) {
   const FlowFit& best = result.best();
-  const Provenance here = build_provenance();
-  std::string text = "# " + std::filesystem::path(options.file).filename().string() + table_mark +
-                     here.version + " (" + here.commit +
-                     "): " + std::to_string(result.measured.curve.rate.size()) + " points, " +
-                     (options.model ? "model as asked for" : "model chosen by AICc") + ".\n";
+  const SampleFacts& facts = result.measured.facts;
+  std::string text = first_line(std::filesystem::path(options.file).filename().string(),
+                                std::to_string(result.measured.curve.rate.size()) + " points, " +
+                                    (options.model ? "model as asked for" : "model chosen by AICc"));
   text += "# 95 % intervals:";
   for (const NamedEstimate& e : estimates(best)) text += " " + interval(e) + ";";
   text.back() = '\n';
-  text += "[fluid." + fluid_name(result, options.file) + "]\n";
-  const auto& density = result.measured.facts.density;
-  text += density ? "density = " + show(rounded(*density)) + "\n"
-                  : "# density = ...  # [kg/m^3] must be added: the measurements do not give it\n";
+  text += "[fluid." + fluid_name(facts, options.file) + "]\n" + density_line(facts);
   text += std::string("rheology = \"") + name_of(best.model) + "\"\n";
   for (const NamedEstimate& e : estimates(best))
     text += std::string(e.key) + " = " + show(rounded(e.estimate.value)) + "\n";
@@ -259,7 +186,8 @@ std::string to_fluid_table(const RheometryResult& result, const RheometryOptions
 
 std::string to_curves(const RheometryResult& result) {
   const FlowCurve& curve = result.measured.curve;
-  std::string text = (curve.cylinders ? "rotation_rad/s" : "shear_rate_1/s") + std::string(curves_mark);
+  std::string text =
+      (curve.cylinders ? "rotation_rad/s" : "shear_rate_1/s") + std::string(curves_mark) + "Pa";
   for (const FlowFit& fit : result.fits) text += std::string(",") + name_of(fit.model) + "_Pa";
   text += "\n";
   const auto add = [&](const std::vector<double>& rates, const std::vector<double>& measured) {
@@ -277,20 +205,52 @@ std::string to_curves(const RheometryResult& result) {
   return text;
 }
 
-void run_rheometry(const RheometryOptions& options) {
-  const std::string curves = options.output.empty() ? "" : require_output(options);
-  const RheometryResult result = analyse(options);
-  const std::string table = to_fluid_table(result, options);
-  std::vector<std::string> warnings = result.warnings;
+namespace {
+
+void require_no_law(const RheometryOptions& options) {
+  if (options.law)
+    throw InputError(options.file + ": --model " + name_of(*options.law) +
+                     " is of viscosity over temperature, the readings are a flow curve: allowed: auto, "
+                     "newtonian, bingham, herschel-bulkley; or --over-temperature");
+  if (options.above)
+    throw InputError(
+        options.file +
+        ": --above is of viscosity over temperature, the readings are a flow curve: allowed: with "
+        "--over-temperature");
+}
+
+Answer flow_answer(const Measurements& measured, const RheometryOptions& options) {
+  require_no_law(options);
+  const RheometryResult result = analyse(measured, options);
+  Answer answer{to_text(result), to_fluid_table(result, options), to_curves(result), result.warnings};
   if (!result.measured.facts.density)
-    warnings.push_back(options.file +
-                       ": no density, which the fluid table needs: a line `# density_kg/m3 = ...` or the "
-                       "option --density");
-  for (const std::string& warning : warnings) std::fprintf(stderr, "warning: %s\n", warning.c_str());
-  std::fputs((to_text(result) + "\n" + table).c_str(), stdout);
-  if (options.output.empty()) return;
-  write_file(options.output, table);
-  write_file(curves, to_curves(result));
+    answer.warnings.push_back(options.file +
+                              ": no density, which the fluid table needs: a line `# density_kg/m3 = ...` or "
+                              "the option --density");
+  return answer;
+}
+
+Answer answer_of(const RheometryOptions& options) {
+  if (!options.composition.empty()) return composition_answer(options);
+  if (options.phases) return phases_answer(options);
+  const Measurements measured = read_measurements(options.file, options.facts);
+  return measured.series.empty() ? flow_answer(measured, options) : melt_answer(measured, options);
+}
+
+}  // namespace
+
+void run_rheometry(const RheometryOptions& options) {
+  if (options.file.empty() == options.composition.empty())
+    throw InputError(options.file.empty()
+                         ? "rheometry: neither a file nor --composition: allowed: FILE.csv, or --composition"
+                         : "rheometry: a file and --composition: allowed: FILE.csv, or --composition");
+  if (options.slag_model && options.composition.empty())
+    throw InputError(options.file + ": --model " + name_of(*options.slag_model) +
+                     " is of a composition: allowed: with --composition");
+  if (options.phases && (options.model || options.law || options.above))
+    throw InputError(options.file + ": --model and --above are of readings: allowed: not with --phases");
+  require_output(options.output, options.file);
+  deliver(answer_of(options), options.output);
 }
 
 }  // namespace slagflow

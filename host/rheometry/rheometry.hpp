@@ -1,22 +1,13 @@
 // The command `rheometry`: from a viscometer's readings to the [fluid] table of a case.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "host/rheometry/rheometry_data.hpp"
+#include "host/rheometry/rheometry_options.hpp"
+#include "host/rheometry/rheometry_output.hpp"
 
 namespace slagflow {
-
-struct RheometryOptions {
-  std::string file;
-  std::optional<FlowModel> model;  // else the best by AICc
-  std::string output;              // TOML file; empty: none
-  SampleFacts facts;               // given as options
-  ErrorModel errors = ErrorModel::absolute;
-  double growth_exponent = 1000;  // [s]
-};
 
 struct RheometryResult {
   Measurements measured;
@@ -27,8 +18,8 @@ struct RheometryResult {
   const FlowFit& best() const { return fits[chosen]; }
 };
 
-// Throws InputError on bad measurements or a model that does not fit them.
-RheometryResult analyse(const RheometryOptions&);
+// Throws InputError on a model that does not fit the measurements.
+RheometryResult analyse(const Measurements& measured, const RheometryOptions& options);
 
 // For people: the fits with their intervals, and which was chosen.
 std::string to_text(const RheometryResult&);
@@ -40,7 +31,8 @@ std::string to_fluid_table(const RheometryResult&, const RheometryOptions&);
 // model. Rows of curves have no measured stress.
 std::string to_curves(const RheometryResult&);
 
-// Runs the command: results to stdout, warnings to stderr. With an output X.toml the curves go to X.csv.
+// Runs the command, whichever of its kinds the options and the file ask for: results to stdout, warnings to
+// stderr. With an output X.toml the curves go to X.csv.
 void run_rheometry(const RheometryOptions&);
 
 }  // namespace slagflow

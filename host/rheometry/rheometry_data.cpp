@@ -15,13 +15,21 @@
 namespace slagflow {
 namespace {
 
-constexpr double largest_fall = 0.2;       // of the stress, while the rate rises: more is refused
-constexpr double largest_scatter = 0.05;   // of the stress at one rate, unwarned
-constexpr double smallest_span = 3;        // largest rate over the smallest
-constexpr std::size_t most_problems = 20;  // that are told
+constexpr double largest_fall = 0.2;        // of the stress, while the rate rises: more is refused
+constexpr double largest_scatter = 0.05;    // of the stress at one rate, unwarned
+constexpr double smallest_span = 3;         // largest rate over the smallest
+constexpr double same_temperature = 1;      // [K]
+constexpr double largest_difference = 0.2;  // of the viscosity there, unwarned
+constexpr double least_range = 10;          // [K] of a series over temperature
+constexpr std::size_t most_problems = 20;   // that are told
 
 struct Point {
   double rate, stress;
+  int line;
+};
+
+struct MeltPoint {
+  double temperature, viscosity;
   int line;
 };
 
@@ -42,7 +50,10 @@ class Reader {
     require_facts();
     raise();
     convert();
-    check_points();
+    if (readings_.over_temperature)
+      check_series();
+    else
+      check_points();
     raise();
     return std::move(result_);
   }
@@ -108,6 +119,7 @@ class Reader {
     options.spindle = spindle_.has_value();
     options.cylinders = spindle_ || (facts.bob_radius && facts.cup_radius && facts.height);
     options.only = facts.table;
+    options.over_temperature = given_.over_temperature;
     readings_ = read_tables(tables, options, file_, problems_);
     result_.warnings.insert(result_.warnings.end(), readings_.warnings.begin(), readings_.warnings.end());
     several_ = tables.blocks.size() > 1 && !facts.table;
@@ -123,12 +135,15 @@ class Reader {
     return lines;
   }
 
+  bool has_viscosities() const { return readings_.first == Quantity::temperature; }
   bool rotates() const { return readings_.first == Quantity::rotation; }
 
   void require_facts() {
     SampleFacts& facts = result_.facts;
     if (!rotates()) {
-      if (spindle_) warn(file_ + ": the spindle is not used: shear rate and stress are given");
+      if (spindle_)
+        warn(file_ + ": the spindle is not used: " +
+             (has_viscosities() ? "viscosities are" : "shear rate and stress are") + " given");
       facts.spindle.reset();
       return;
     }
@@ -172,8 +187,18 @@ class Reader {
     if (rotates())
       curve.cylinders =
           spindle_ ? spindle_->cylinders() : Cylinders{*facts.bob_radius, *facts.cup_radius, *facts.height};
+    if (has_viscosities()) {
+      for (const Reading& reading : readings_.readings)
+        series_.push_back({reading.temperature, reading.second, reading.line});
+      return;
+    }
     for (const Reading& reading : readings_.readings) points_.push_back(point_of(reading));
     warn_of_other_viscosity();
+    if (readings_.over_temperature) {
+      for (std::size_t k = 0; k < points_.size(); ++k)
+        series_.push_back({readings_.readings[k].temperature, viscosity_of(points_[k]), points_[k].line});
+      return;
+    }
     std::stable_sort(points_.begin(), points_.end(),
                      [](const Point& a, const Point& b) { return a.rate < b.rate; });
     for (const Point& point : points_) {
@@ -182,12 +207,18 @@ class Reader {
     }
   }
 
+  // [Pa s] as of a Newtonian fluid.
+  double viscosity_of(const Point& point) const {
+    const auto& cylinders = result_.curve.cylinders;
+    return point.stress / (cylinders ? cylinders->nominal_rate(point.rate) : point.rate);
+  }
+
   // Of the file beside the one of torque and geometry; the first that differs.
   void warn_of_other_viscosity() {
     constexpr double most = 1.5;
     for (std::size_t k = 0; k < points_.size() && result_.curve.cylinders; ++k) {
       const double given = readings_.readings[k].viscosity;
-      const double here = points_[k].stress / result_.curve.cylinders->nominal_rate(points_[k].rate);
+      const double here = viscosity_of(points_[k]);
       if (!(given > 0) || (here < most * given && given < most * here)) continue;
       warn(at(points_[k].line) + "the file gives a viscosity of " + text_of(given) +
            " Pa s, rotation and torque " + text_of(here) +
@@ -209,6 +240,27 @@ class Reader {
       warn(file_ + ": the largest rate is only " + text_of(span) +
            " times the smallest: the intercept is a guess");
     check_rise();
+  }
+
+  void check_series() {
+    std::stable_sort(series_.begin(), series_.end(),
+                     [](const MeltPoint& a, const MeltPoint& b) { return a.temperature < b.temperature; });
+    int told = 0;
+    for (std::size_t k = 0; k < series_.size(); ++k) {
+      const MeltPoint& here = series_[k];
+      result_.series.temperature.push_back(here.temperature);
+      result_.series.viscosity.push_back(here.viscosity);
+      if (k == 0 || here.temperature - series_[k - 1].temperature > same_temperature) continue;
+      const double ratio = here.viscosity / series_[k - 1].viscosity;
+      if (std::abs(std::log(ratio)) > std::log(1 + largest_difference) && told++ == 0)
+        warn(at(here.line) + "the viscosity " + text_of(here.viscosity) + " Pa s and the " +
+             text_of(series_[k - 1].viscosity) + " Pa s of line " + std::to_string(series_[k - 1].line) +
+             " are at one temperature: does the sample change, or do heating and cooling differ?");
+    }
+    if (series_.size() < 2 || series_.back().temperature - series_.front().temperature < least_range)
+      problem(std::to_string(series_.size()) + " readings over a range of temperature of " +
+              text_of(series_.empty() ? 0 : series_.back().temperature - series_.front().temperature) +
+              " K: allowed: at least " + text_of(least_range) + " K, for viscosity over temperature");
   }
 
   void check_rise() {
@@ -249,6 +301,7 @@ class Reader {
   Readings readings_;
   Measurements result_;
   std::vector<Point> points_;
+  std::vector<MeltPoint> series_;
   std::vector<Problem> problems_;
   bool several_ = false;  // tables are taken together
 };
@@ -260,7 +313,7 @@ Measurements parse_measurements(const std::string& text, const std::string& file
   return Reader(file, options).read(text);
 }
 
-Measurements read_measurements(const std::string& path, const SampleFacts& options) {
+std::string read_whole_file(const std::string& path) {
   std::error_code unknown;
   if (std::filesystem::is_directory(path, unknown))
     throw InputError(path + ": is a folder: allowed: a file with readings");
@@ -269,7 +322,11 @@ Measurements read_measurements(const std::string& path, const SampleFacts& optio
   std::stringstream text;
   text << file.rdbuf();
   if (!file) throw InputError("cannot read " + path + ": is it a folder?");
-  return parse_measurements(text.str(), path, options);
+  return text.str();
+}
+
+Measurements read_measurements(const std::string& path, const SampleFacts& options) {
+  return parse_measurements(read_whole_file(path), path, options);
 }
 
 }  // namespace slagflow

@@ -174,7 +174,8 @@ std::string text_of(double value) {
 
 std::string disbelief(double value, const NamedQuantity& named) {
   const QuantityInfo& q = info(named.quantity);
-  const double least = q.least / named.factor, most = named.percent ? 100 : q.most / named.factor;
+  const double least = (q.least - named.offset) / named.factor;
+  const double most = named.percent ? 100 : (q.most - named.offset) / named.factor;
   if (value > least && value <= most) return "";
   return "value " + text_of(value) + ": allowed: > " + text_of(least) + " to " + text_of(most) +
          "; is the unit right?";

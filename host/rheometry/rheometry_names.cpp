@@ -19,7 +19,7 @@ struct Alias {
 };
 
 // Longer names before their beginnings.
-constexpr std::array<Alias, 68> aliases{{
+constexpr std::array<Alias, 81> aliases{{
     {"full scale torque", Quantity::full_scale_torque},
     {"bob radius", Quantity::bob_radius},
     {"cup radius", Quantity::cup_radius},
@@ -88,6 +88,19 @@ constexpr std::array<Alias, 68> aliases{{
     {"トルク", Quantity::torque},
     {"md", Quantity::torque, Trust::weak},
     {"m", Quantity::torque, Trust::weak},
+    {"temperature", Quantity::temperature},
+    {"temperatur", Quantity::temperature},
+    {"temperatura", Quantity::temperature},
+    {"temp\xC3\xA9rature", Quantity::temperature},
+    {"sample temperature", Quantity::temperature},
+    {"melt temperature", Quantity::temperature},
+    {"probentemperatur", Quantity::temperature},
+    {"messtemperatur", Quantity::temperature},
+    {"試料温度", Quantity::temperature},
+    {"温度", Quantity::temperature},
+    {"temp.", Quantity::temperature},
+    {"temp", Quantity::temperature},
+    {"t", Quantity::temperature, Trust::weak},
 }};
 
 // Lower case, blanks for underscores, Greek letters by name.
@@ -198,6 +211,7 @@ NamedQuantity with_unit(NamedQuantity named, const std::string& unit) {
   named.unit_known = found && !turns;
   named.unit = found ? found->name : trimmed(unit);
   named.factor = found ? found->factor : 1;
+  named.offset = found ? found->offset : 0;
   named.percent = found && found->name == std::string(percent_unit);
   return named;
 }

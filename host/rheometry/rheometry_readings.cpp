@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "host/rheometry/rheometry_columns.hpp"
 #include "host/rheometry/rheometry_facts.hpp"
 
 namespace slagflow {
@@ -32,7 +32,7 @@ std::vector<Pair> pairs(const ReadingsOptions& options) {
 struct Chosen {
   const Block* block;
   std::size_t table;
-  int first, second, viscosity;  // columns
+  int first, second, viscosity, temperature;  // columns
 };
 
 class Reader {
@@ -49,7 +49,7 @@ class Reader {
       for (const Record& row : chosen.block->rows) take(row, chosen);
     tell_left_out();
     warn_of_viscosity();
-    warn_of_temperature();
+    if (!result_.over_temperature) warn_of_temperature();
     result_.how = how();
     return std::move(result_);
   }
@@ -80,8 +80,14 @@ class Reader {
   void choose_pair() {
     const std::vector<std::size_t> wanted = wanted_tables();
     if (wanted.empty()) return;
+    result_.over_temperature = are_series(wanted);
+    std::vector<Pair> all = pairs(options_);
+    const bool flows = std::all_of(wanted.begin(), wanted.end(),
+                                   [&](std::size_t k) { return tables_.blocks[k].has_flow_pair(); });
+    if (result_.over_temperature || !flows)
+      all.insert(all.begin(), {Quantity::temperature, Quantity::viscosity});
     for (const bool with_units : {true, false})
-      for (const Pair& pair : pairs(options_)) {
+      for (const Pair& pair : all) {
         if (!std::all_of(wanted.begin(), wanted.end(),
                          [&](std::size_t k) { return has(tables_.blocks[k], pair, with_units); }))
           continue;
@@ -96,8 +102,18 @@ class Reader {
     else
       problem(line,
               "rotation and viscosity need the spindle: allowed: a line `# spindle = LV-1` or the option "
-              "--spindle; or another pair: " +
+              "--spindle; or --over-temperature, with a temperature; or another pair: " +
                   allowed_columns());
+  }
+
+  bool are_series(const std::vector<std::size_t>& wanted) {
+    std::size_t count = 0;
+    for (const std::size_t k : wanted) count += is_series(tables_.blocks[k], options_.over_temperature);
+    if (options_.over_temperature && count < wanted.size())
+      problem(tables_.blocks[wanted[0]].line,
+              "no temperature with a unit: allowed with --over-temperature: a column " +
+                  names_of(Quantity::temperature));
+    return count == wanted.size();
   }
 
   static bool has(const Block& block, const Pair& pair, bool with_units) {
@@ -110,17 +126,10 @@ class Reader {
     return true;
   }
 
-  // What a viscometer does not know, such as the shear rate at a disc, it writes as 0.
-  static bool is_zero(const Block& block, int k) {
-    return !block.rows.empty() && std::all_of(block.rows.begin(), block.rows.end(), [k](const Record& row) {
-      return stands_for_no_number(field(row, k)) || number_of(field(row, k), DecimalSign::point) == 0.0 ||
-             number_of(field(row, k), DecimalSign::comma) == 0.0;
-    });
-  }
-
   void choose_columns(std::size_t k) {
     const Block& block = tables_.blocks[k];
-    Chosen chosen{&block, k, one_of(block, result_.first), one_of(block, result_.second), -1};
+    Chosen chosen{&block, k, one_of(block, result_.first), one_of(block, result_.second), -1, -1};
+    if (result_.over_temperature) chosen.temperature = block.column_of(Quantity::temperature);
     if (result_.second == Quantity::shear_stress || result_.second == Quantity::torque)
       chosen.viscosity = block.column_of(Quantity::viscosity);
     const bool percent = column(chosen, chosen.second).meaning.percent;
@@ -158,7 +167,9 @@ class Reader {
     int count = 0;
     for (int k = 0; k < static_cast<int>(chosen.block->columns.size()); ++k) {
       const std::string& name = column(chosen, k).name;
-      if (k == chosen.first || k == chosen.second || k == chosen.viscosity || name.empty()) continue;
+      if (k == chosen.first || k == chosen.second || k == chosen.viscosity || k == chosen.temperature ||
+          name.empty())
+        continue;
       names += (count++ > 0 ? ", '" : "'") + name + "'";
     }
     if (count > 0 && chosen_.size() == 1)
@@ -175,6 +186,13 @@ class Reader {
     return same ? parts.number : field(row, k);
   }
 
+  // Those that make up a reading, in the order in which they are told.
+  static std::vector<int> columns_of(const Chosen& chosen) {
+    std::vector<int> columns{chosen.first, chosen.second};
+    if (chosen.temperature >= 0 && chosen.temperature != chosen.first) columns.push_back(chosen.temperature);
+    return columns;
+  }
+
   struct Place {
     int line = 0;
     std::string text;
@@ -185,7 +203,7 @@ class Reader {
     Place point, comma, unclear;
     for (const Chosen& chosen : chosen_)
       for (const Record& row : chosen.block->rows)
-        for (const int k : {chosen.first, chosen.second}) {
+        for (const int k : columns_of(chosen)) {
           const Place here{row.line, number_in(row, chosen, k)};
           const NumberForm form = form_of(here.text);
           if (form == NumberForm::with_point && point.line == 0) point = here;
@@ -233,13 +251,13 @@ class Reader {
     if (meaning.percent && *number < 100 * least_of_scale)
       warn(row.line, what + "value " + text + " is below " + text_of(100 * least_of_scale) +
                          " % of full scale, where a torque sensor is uncertain");
-    value = *number * meaning.factor;
+    value = meaning.si(*number);
     return true;
   }
 
   // Rows that the instrument marks as none, with the mark.
   bool leave_out(const Record& row, const Chosen& chosen) {
-    for (const int k : {chosen.first, chosen.second})
+    for (const int k : columns_of(chosen))
       if (stands_for_no_number(field(row, k))) {
         left_out_.push_back({row.line, field(row, k)});
         return true;
@@ -266,8 +284,12 @@ class Reader {
 
   void take(const Record& row, const Chosen& chosen) {
     if (leave_out(row, chosen)) return;
-    Reading reading{0, 0, row.line, chosen.table, viscosity_of(row, chosen)};
-    const bool good = take_field(row, chosen, chosen.first, reading.first);
+    Reading reading{0, 0, row.line, chosen.table, viscosity_of(row, chosen), 0};
+    bool good = take_field(row, chosen, chosen.first, reading.first);
+    if (chosen.temperature == chosen.first)
+      reading.temperature = reading.first;
+    else if (chosen.temperature >= 0)
+      good = take_field(row, chosen, chosen.temperature, reading.temperature) && good;
     if (!take_field(row, chosen, chosen.second, reading.second) || !good) return;
     result_.readings.push_back(reading);
     const double given = reading.viscosity;
@@ -286,18 +308,18 @@ class Reader {
 
   // Viscosity depends on it strongly.
   void warn_of_temperature() {
-    constexpr double most = 2;  // [K]
     for (const Chosen& chosen : chosen_)
       for (int k = 0; k < static_cast<int>(chosen.block->columns.size()); ++k) {
-        if (lower_case(column(chosen, k).name).rfind("temp", 0) != 0) continue;
-        double low = std::numeric_limits<double>::infinity(), high = -low;
-        for (const Record& row : chosen.block->rows)
-          if (const std::optional<double> t = number_of(field(row, k), sign_))
-            low = std::min(low, *t), high = std::max(high, *t);
-        if (high - low > most)
-          warn(chosen.block->line, "the temperature goes from " + text_of(low) + " to " + text_of(high) +
-                                       " in column '" + column(chosen, k).name +
-                                       "': a flow curve is of one temperature");
+        const NamedQuantity& meaning = column(chosen, k).meaning;
+        const bool known = meaning.known && meaning.quantity == Quantity::temperature;
+        if (!known && lower_case(column(chosen, k).name).rfind("temp", 0) != 0) continue;
+        const auto [low, high] = range_of(*chosen.block, k);
+        if (high - low > temperature_spread)
+          warn(chosen.block->line,
+               "the temperature goes from " + text_of(low) + " to " + text_of(high) + " in column '" +
+                   column(chosen, k).name +
+                   "': a flow curve is of one temperature; --over-temperature takes it for viscosity over "
+                   "temperature");
       }
   }
 
@@ -317,7 +339,7 @@ class Reader {
       text += " in lines " + std::to_string(result_.readings.front().line) + " to " +
               std::to_string(result_.readings.back().line);
     if (chosen_.size() > 1) text += " of " + std::to_string(chosen_.size()) + " tables";
-    for (const int k : {one.first, one.second})
+    for (const int k : columns_of(one))
       text += (k == one.first ? "; " : ", ") + std::string(info(column(one, k).meaning.quantity).name) +
               " in " + column(one, k).meaning.unit + " from '" + column(one, k).name + "'";
     return text;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "host/text/number_text.hpp"
@@ -279,11 +280,19 @@ Problem nearest(const std::string& text) {
   return best;
 }
 
+// Above a flow curve a temperature and a viscosity are facts of the sample.
+void drop_facts(std::vector<Block>& blocks) {
+  const auto flows = [](const Block& block) { return block.has_flow_pair(); };
+  if (std::any_of(blocks.begin(), blocks.end(), flows))
+    blocks.erase(std::remove_if(blocks.begin(), blocks.end(), std::not_fn(flows)), blocks.end());
+}
+
 std::optional<Tables> tables_of(const std::string& text, Separator separator) {
   Records split = split_records(text, separator);
   Tables tables = Scanner(split.records).scan();
   if (tables.blocks.empty()) tables = Scanner(with_commented_names(std::move(split.records))).scan();
   if (tables.blocks.empty()) return {};
+  drop_facts(tables.blocks);
   tables.separator = separator;
   if (split.open_quote != 0)
     tables.problems.push_back({split.open_quote, "a quote that is not closed: allowed: \" in pairs"});
@@ -306,16 +315,19 @@ int Block::column_of(Quantity q) const {
   return found.empty() ? -1 : found.front();
 }
 
-bool Block::has_pair() const {
+bool Block::has_flow_pair() const {
   const auto has = [this](Quantity q) { return column_of(q) >= 0; };
   const int flow = has(Quantity::shear_rate) + has(Quantity::shear_stress) + has(Quantity::viscosity);
   return flow >= 2 || (has(Quantity::rotation) && (has(Quantity::torque) || has(Quantity::viscosity)));
 }
 
+bool Block::has_pair() const {
+  return has_flow_pair() || (column_of(Quantity::temperature) >= 0 && column_of(Quantity::viscosity) >= 0);
+}
+
 std::string allowed_columns() {
   return "names with units, as `shear_rate_1/s,shear_stress_Pa` or `Shear Rate [1/s];Viscosity [mPa s]`: two "
-         "of shear "
-         "rate, shear stress and viscosity; or rotation and torque";
+         "of shear rate, shear stress and viscosity; or rotation and torque; or temperature and viscosity";
 }
 
 Tables find_tables(const std::string& text) {

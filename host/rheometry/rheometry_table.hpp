@@ -23,7 +23,8 @@ struct Block {
   std::vector<Record> rows;
   int column_of(Quantity q) const;
   std::vector<int> columns_of(Quantity q) const;
-  bool has_pair() const;
+  bool has_flow_pair() const;  // of a flow curve
+  bool has_pair() const;       // that, or viscosity over temperature
 };
 
 struct Problem {

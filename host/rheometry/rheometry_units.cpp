@@ -57,6 +57,13 @@ Units torque_units_and_percent() {
   return units;
 }
 
+Units temperature_units() {
+  constexpr double ice = 273.15, fahrenheit = 5.0 / 9;
+  return {{"K", 1, "kelvin Kelvins degK"},
+          {"C", 1, "degC °C ºC ˚C ℃ celsius degreesC degreescelsius GradC", ice},
+          {"F", fahrenheit, "degF °F ºF ℉ fahrenheit degreesF", ice - 32 * fahrenheit}};
+}
+
 Units length_units() { return {{"m", 1}, {"mm", 1e-3}, {"cm", 1e-2}}; }
 
 Units density_units() {
@@ -69,6 +76,7 @@ std::vector<QuantityInfo> all_quantities() {
           {Quantity::viscosity, "viscosity", viscosity_units(), 0, 1e9},
           {Quantity::rotation, "rotation", rotation_units(), 0, 1e4},
           {Quantity::torque, "torque", torque_units_and_percent(), 0, 1e3},
+          {Quantity::temperature, "temperature", temperature_units(), 200, 4000},
           {Quantity::bob_radius, "bob_radius", length_units(), 0, 0.5},
           {Quantity::cup_radius, "cup_radius", length_units(), 0, 1},
           {Quantity::height, "height", length_units(), 0, 1},

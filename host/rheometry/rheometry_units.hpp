@@ -11,6 +11,7 @@ struct UnitInfo {
   const char* name;
   double factor;               // to the SI unit
   const char* spellings = "";  // further ones, as plain_unit gives them, a blank between
+  double offset = 0;           // [SI unit] of its zero: SI value = factor * value + offset
 };
 
 enum class Quantity {
@@ -19,6 +20,7 @@ enum class Quantity {
   viscosity,
   rotation,
   torque,
+  temperature,
   bob_radius,
   cup_radius,
   height,
@@ -40,7 +42,7 @@ const std::vector<QuantityInfo>& quantities();
 inline const QuantityInfo& info(Quantity q) { return quantities()[static_cast<std::size_t>(q)]; }
 
 // Columns have these, the others are facts of the whole file.
-inline bool is_measured(Quantity q) { return q <= Quantity::torque; }
+inline bool is_measured(Quantity q) { return q <= Quantity::temperature; }
 
 // A unit's text in one of its many forms: without brackets, blanks and signs of products and powers, u for
 // micro. `[mPa·s]` gives mPas, `s^-1` and `s⁻¹` give s-1.
@@ -61,8 +63,10 @@ struct NamedQuantity {
   bool weak = false;        // a short name such as n or M that means this with a fitting unit alone
   bool angular = false;     // a rotation named as an angle: its 1/s would be rad/s
   Quantity quantity{};
-  double factor = 1;
+  double factor = 1, offset = 0;
   std::string unit;  // as the table of units names it
+
+  double si(double value) const { return factor * value + offset; }
 };
 NamedQuantity parse_name(const std::string& text);
 

@@ -330,8 +330,7 @@ void Run::tell_losses() {
   if (!ended_early_.empty()) tell({"ended early: " + ended_early_});
   if (!simulation_) return;
   try {
-    tell(openings_.lines(totals()));
-    tell(heat_.lines(totals()));
+    tell(openings_.lines(totals())), tell(heat_.lines(totals()));
     const std::int64_t start = all_particles(totals());
     tell(losses_.lines(totals(), start));
     for (const std::string& warning : losses_.warnings(totals(), start)) log_.warning(warning);

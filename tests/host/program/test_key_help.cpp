@@ -117,6 +117,7 @@ TEST(Completion, OffersCommandsOptionsKeysAndValues) {
   EXPECT_EQ(offered({"slagflow", "run", "--set", "numerics.viscous_step", "="}), "implicit explicit");
   EXPECT_EQ(offered({"slagflow", "run", "--set", "numerics.viscous_step", "=", "e"}), "explicit");
   EXPECT_EQ(offered({"slagflow", "help", "limits.max_s"}), "limits.max_speed");
+  EXPECT_EQ(offered({"slagflow", "rheometry", "--model", "ur"}), "urbain");
 }
 
 TEST(ManPage, HoldsCommandsAndKeysWithoutACommandOfRoffInThem) {
@@ -126,6 +127,14 @@ TEST(ManPage, HoldsCommandsAndKeysWithoutACommandOfRoffInThem) {
       page, AllOf(HasSubstr("\\&.a run\n"), HasSubstr("\\fB\\-o,\\-\\-output\\fR DIR\n"), HasSubstr("1.2")));
   for (const CatalogueKey& k : catalogue().keys())
     EXPECT_THAT(page, HasSubstr(k.table.empty() ? ".SS " + k.inside + "\n" : "\\fB" + k.name + "\\fR"));
+}
+
+TEST(KeyHelp, HelpOfACommandShowsItsOptions) {
+  const std::array<const char*, 3> words{"slagflow", "help", "rheometry"};
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_program(3, words.data()), 0);
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              AllOf(HasSubstr("--composition"), HasSubstr("--phases")));
 }
 
 TEST(KeyHelp, HelpOfWhatIsNotThereGivesTwo) {

@@ -3,8 +3,8 @@
 
 #include "backend/error.hpp"
 #include "host/case/case.hpp"
-#include "host/program/program.hpp"
 #include "host/rheometry/rheometry.hpp"
+#include "host/rheometry_command.hpp"
 #include "host/temp_folder.hpp"
 
 namespace slagflow {
@@ -12,23 +12,9 @@ namespace {
 
 using testing::HasSubstr;
 using testing_tools::read_text_file;
+using testing_tools::rheometry_command;
+using testing_tools::Said;
 using testing_tools::TempFolder;
-
-struct Said {
-  int code;
-  std::string out, err;
-};
-
-Said rheometry_command(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {"slagflow", "rheometry"});
-  std::vector<const char*> argv;
-  for (const std::string& a : arguments) argv.push_back(a.c_str());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const int code = run_program(static_cast<int>(argv.size()), argv.data());
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout(), testing::internal::GetCapturedStderr()};
-}
 
 // A case around a [fluid] table.
 std::string case_with(const std::string& fluid) {

@@ -50,11 +50,34 @@ TEST(RheometryNames, KnowsTheFormsOfMakersAndLanguages) {
   }
 }
 
+TEST(RheometryNames, KnowsTemperatures) {
+  struct Temperature {
+    const char* name;
+    double one;  // [K] that a value of 1 is
+  };
+  for (const Temperature& header :
+       std::initializer_list<Temperature>{{"temperature_K", 1},
+                                          {"T [°C]", 274.15},
+                                          {"T(C)", 274.15},
+                                          {"T/K", 1},
+                                          {"Temperatur / °C", 274.15},
+                                          {"Temp. in ℃", 274.15},
+                                          {"Température (ºC)", 274.15},
+                                          {"温度 [℃]", 274.15},
+                                          {"Sample temperature, degC", 274.15},
+                                          {"temperature [°F]", 5.0 / 9 * (1 - 32) + 273.15}}) {
+    const NamedQuantity named = parse_name(header.name);
+    EXPECT_TRUE(named.known && named.unit_known) << header.name;
+    EXPECT_EQ(named.quantity, Quantity::temperature) << header.name;
+    EXPECT_NEAR(named.si(1), header.one, 1e-9) << header.name;
+  }
+  EXPECT_FALSE(parse_name("t [s]").unit_known);
+  EXPECT_FALSE(parse_name("Temperature set [°C]").known);
+}
+
 TEST(RheometryNames, KnowsNoOtherQuantities) {
   for (const char* name :
        {"Normal stress [Pa]", "Shear stress amplitude [Pa]", "Torque limit", "Complex viscosity [Pa.s]",
-        "Temperature [\xC2\xB0"
-        "C]",
         "Status", "mass [kg]", "number", "Speed setting [rpm]", ""})
     EXPECT_FALSE(parse_name(name).known) << name;
 }
