@@ -43,8 +43,9 @@ struct HeatWorld {
   std::vector<int> site;          // of each wall particle; -1: none
   std::vector<double> site_area;  // and of each site
   std::vector<int> site_body;
-  double factor = 0;  // C_T
-  double outer_deficit = 0, ambient = 0, transfer = 0;
+  double factor = 0;            // C_T
+  std::vector<Vec> directions;  // of free surfaces
+  double flat_share = 0, drop_exponent = 0, ambient = 0, transfer = 0;
 
   double k(std::size_t i, double t) const {
     return at(conductivity[static_cast<std::size_t>(world.particles[i].fluid)], t);
@@ -162,10 +163,29 @@ struct HeatWorld {
     return 1 - fill;
   }
 
+  // Of the directions from a particle those in which a place a spacing away is within a spacing of no other;
+  // not-a-number where rounding decides.
+  double open_directions(std::size_t i) const {
+    double open = 0;
+    for (const Vec& u : directions) {
+      double deepest = -1e30;
+      const auto look = [&](Vec d) {
+        deepest = std::max(deepest, 2 * world.spacing * dot(u, -1.0 * d) - dot(d, d));
+      };
+      for_fluid_pairs(world, i, [&](const Particle&, Vec d) { look(d); });
+      for_wall_pairs(world, i, [&](const Wall&, Vec d) { look(d); });
+      if (std::fabs(deepest) < 1e-5 * world.spacing * world.spacing) return std::nan("");
+      open += deepest > 0 ? 0 : 1;
+    }
+    return open;
+  }
+
   // [W] lost by the surface of a particle: its temperature by bisection.
-  double lost(std::size_t i, double threshold) const {
-    const double open = deficit(i);
-    if (open <= threshold) return 0;
+  double lost(std::size_t i, double inside) const {
+    if (deficit(i) <= inside) return 0;
+    const double share = open_directions(i) / static_cast<double>(directions.size()) / flat_share;
+    const double size = world.dimensions == 3 ? world.spacing * world.spacing : world.spacing;
+    const double area = size * (share <= 2 ? share : 2 * std::pow(share / 2, drop_exponent));
     const double radiance = 5.670374e-8 * emissivity[static_cast<std::size_t>(world.particles[i].fluid)];
     const auto flux = [&](double t) {
       return radiance * (std::pow(t, 4) - std::pow(ambient, 4)) + transfer * (t - ambient);
@@ -175,7 +195,7 @@ struct HeatWorld {
       const double t = 0.5 * (low + high);
       (potential(i, t, temperature[i]) > flux(t) * world.spacing / 2 ? low : high) = t;
     }
-    return world.particles[i].volume / world.spacing * open / outer_deficit * flux(0.5 * (low + high));
+    return area * flux(0.5 * (low + high));
   }
 };
 

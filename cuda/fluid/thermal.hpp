@@ -38,7 +38,7 @@ struct HeatBalance {
   double surface = 0;               // lost to the surroundings
   std::vector<double> walls;        // lost to each body
   double viscous = 0;               // gained
-  double coolest = 0, hottest = 0;  // [K] of the fluid
+  double coolest = 0, hottest = 0;  // [K] of the fluid; not-a-number without any
   // What has come or gone without a trace: content + what was lost - what was gained - start.
   double error() const {
     double taken = surface;

@@ -101,7 +101,7 @@ struct InFluid {
     const Quad place = c.fluid.place[i];
     const Real fill = total(sums.fill) + sums.wall_fill + place.w * step.constants.fill.value(Real(0));
     const double power = static_cast<double>(place.w * total(sums.conducted)) + sums.from_walls;
-    const double by_surface = surface_power(i, place.w, Real(1) - fill);
+    const double by_surface = surface_power(i, Real(1) - fill);
     const auto mass = static_cast<double>(c.fluids[c.fluid.fluid[i]].mass);
     out.lost[i] = step.elapsed * by_surface;
     out.enthalpy[i] += step.elapsed * (power - by_surface) / mass;
@@ -158,13 +158,40 @@ struct InFluid {
     return AtSite<Box>::pair_power(pair, step.heat[i], body, conductance, wall, step.sites.share[s]);
   }
 
-  // (H6), (H7): [W] lost by a particle whose fill lacks `deficit` of one.
-  HOST_DEVICE double surface_power(Index i, Real volume, Real deficit) const {
+  // Whether a place at `from` from the particle is within a spacing of another particle of the list.
+  HOST_DEVICE bool covered(const ListView& list, Index i, Span<const Quad> places, Vec3 from) const {
+    const Vec3 x = xyz(c.fluid.place[i]);
+    const Offset first = list.row(i);
+    for (Index k = 0; k < list.length[i]; ++k) {
+      const Vec3 d = box.separation(xyz(places[list.entry[first + k * ListView::stride()]]), x);
+      if (Real(2) * dot(from, d) > dot(d, d)) return true;
+    }
+    return false;
+  }
+
+  // (H6): what of the sphere of a spacing about the particle is in no sphere of another.
+  HOST_DEVICE Real area(Index i) const {
     const HeatConstants& h = step.constants;
-    if (!(deficit > h.least_deficit)) return 0;
-    const Real area = volume / c.flow.spacing * deficit / h.outer_deficit;
+    Index open = 0;
+    for (Offset k = 0; k < h.directions.size; ++k) {
+      const Vec3 from = c.flow.spacing * xyz(h.directions[k]);
+      if (!covered(c.fluid_list, i, c.fluid.place, from) && !covered(c.wall_list, i, c.wall.place, from))
+        ++open;
+    }
+    const Real share = static_cast<Real>(open) / static_cast<Real>(h.directions.size) / h.flat_share;
+    const Real flat = c.flow.dimensions == 3 ? square(c.flow.spacing) : c.flow.spacing;
+    return flat * (share <= 2 ? share : Real(2) * std::pow(Real(0.5) * share, h.drop_exponent));
+  }
+
+  // (H7): [W] lost by a particle whose fill lacks `deficit` of one.
+  HOST_DEVICE double surface_power(Index i, Real deficit) const {
+    constexpr Real inside = Real(0.01);
+    const HeatConstants& h = step.constants;
+    if (!(deficit > inside)) return 0;
     const Real radiance = step.emissivity[c.fluid.fluid[i]] * Real(stefan_boltzmann);
     if (!(radiance > 0 || h.surface_transfer > 0)) return 0;
+    const Real exposed = area(i);
+    if (!(exposed > 0)) return 0;
     const Material material = step.materials.of(c.fluid.fluid[i]);
     const Quad own = step.heat[i];
     const Real half = Real(0.5) * c.flow.spacing;
@@ -178,7 +205,7 @@ struct InFluid {
       const Real missing = own.y - row.potential - half * flux;
       surface += missing / (row.conductivity + half * slope);
     }
-    return static_cast<double>(area * flux);
+    return static_cast<double>(exposed * flux);
   }
 };
 

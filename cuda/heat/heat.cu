@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "backend/error.hpp"
 #include "fluid/constants.hpp"
 #include "fluid/diagnostic_sums.hpp"
 #include "fluid/lattice_viscosity.hpp"
@@ -65,16 +66,32 @@ struct SetEntered {
   HOST_DEVICE void operator()(Index k) const { enthalpy[begin + k] = from[k], melt[begin + k] = {}; }
 };
 
-// 1 - f of the outer layer of a plane lattice.
-double deficit_of_plane(const FlowConstants& flow, const Smoothing& smoothing) {
-  const auto dx = static_cast<double>(flow.spacing), h = static_cast<double>(flow.support);
-  const int reach = static_cast<int>(h / dx), across = flow.dimensions == 3 ? reach : 0;
-  double fill = 0;
-  for (int i = -reach; i <= reach; ++i)
-    for (int j = -across; j <= across; ++j)
-      for (int k = -reach; k <= 0; ++k)
-        fill += static_cast<double>(smoothing.value(static_cast<Real>(square(dx) * (i * i + j * j + k * k))));
-  return 1 - fill * static_cast<double>(flow.wall_volume);
+// Evenly spread: on a circle in the x-z plane, or along a spiral over the sphere (Fibonacci's).
+std::vector<Quad> directions(int dimensions) {
+  constexpr int count = 128;
+  constexpr double pi = 3.14159265358979324;
+  std::vector<Quad> all;
+  for (int k = 0; k < count; ++k) {
+    const double along = (k + 0.5) / count, height = 1 - 2 * along, radius = std::sqrt(1 - height * height);
+    const double turn = dimensions == 2 ? 2 * pi * along : pi * (1 + std::sqrt(5.0)) * (k + 0.5);
+    const Vec3d u = dimensions == 2 ? Vec3d{std::cos(turn), 0, std::sin(turn)}
+                                    : Vec3d{radius * std::cos(turn), radius * std::sin(turn), height};
+    all.push_back(quad(to_real(u), 0));
+  }
+  return all;
+}
+
+// Of a particle of a plane square lattice the share of its sphere that is open: of the circle arccos(1/2), of
+// the sphere the part over a square of one spacing. And how areas grow beyond twice that, so that a particle
+// by itself has the surface of a ball of its volume.
+struct Openness {
+  double flat, exponent;
+};
+Openness openness(int dimensions) {
+  constexpr double pi = 3.14159265358979324, over_square = 1.10257119;
+  const double flat = dimensions == 2 ? 1.0 / 6 : over_square / (4 * pi);
+  const double ball = dimensions == 2 ? 2 * std::sqrt(pi) : std::cbrt(36 * pi);
+  return {flat, std::log(ball / 2) / std::log(1 / (2 * flat))};
 }
 
 // Least of rho c / k over a table [s/m^2].
@@ -135,6 +152,7 @@ Heat::Heat(Context& c)
       site_taken_(c, "heat of sites"),
       lost_(c, "heat of particles"),
       entered_(c, "heat that enters"),
+      directions_(c, "directions of surfaces"),
       sums_(c, "heat sums") {}
 
 void Heat::upload_materials(const SimulationSetup& s) {
@@ -183,13 +201,14 @@ void Heat::start(const SimulationSetup& s, const std::vector<double>& remembered
   if (!on_) return;
   friction_ = s.thermal.viscous_heating;
   reference_ = s.thermal.reference_temperature, last_time_ = s.start_time;
-  const FlowConstants flow = flow_constants(s);
   constants_.factor = static_cast<Real>(2 / lattice_viscosity(ViscousOperator::laplacian,
                                                               {s.numerics.kernel, s.numerics.viscous_weight},
                                                               s.support_ratio, s.dimensions));
   constants_.fill = Smoothing(SmoothingKind::lucy, s.support_ratio * s.spacing, s.dimensions);
-  constants_.outer_deficit = static_cast<Real>(deficit_of_plane(flow, constants_.fill));
-  constants_.least_deficit = Real(0.12);
+  directions_.upload(directions(s.dimensions));
+  constants_.directions = directions_.span();
+  constants_.flat_share = static_cast<Real>(openness(s.dimensions).flat);
+  constants_.drop_exponent = static_cast<Real>(openness(s.dimensions).exponent);
   constants_.reference = static_cast<Real>(reference_);
   constants_.ambient = static_cast<Real>(s.thermal.ambient_temperature);
   constants_.surface_transfer = static_cast<Real>(s.thermal.surface_heat_transfer);
@@ -291,12 +310,26 @@ HeatBalance Heat::balance(const FluidArrays& fluid, Span<const FluidConstants> f
   balance.surface = sums[heat_by_surface], balance.viscous = sums[heat_by_friction];
   balance.walls.assign(bodies_count_, 0);
   for (std::size_t s = 0; s < taken.size(); ++s) balance.walls[site_bodies_[s]] += taken[s];
+  balance.coolest = balance.hottest = std::numeric_limits<double>::quiet_NaN();
   if (fluid.count > 0) {
     balance.hottest = reference_ + largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), 1});
     balance.coolest =
         reference_ - largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), -1});
   }
   return balance;
+}
+
+void Heat::require_possible(const FluidArrays& fluid, double time, DiagnosticScratch& scratch) const {
+  constexpr double coldest = 20, hottest = 8000;  // [K]
+  if (!on_ || fluid.count == 0) return;
+  const double most = reference_ + largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), 1});
+  const double least =
+      reference_ - largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), -1});
+  if (least >= coldest && most <= hottest) return;
+  throw Error("the fluid has from " + std::to_string(least) + " to " + std::to_string(most) + " K at " +
+              std::to_string(time) + " s, and can have " + std::to_string(coldest) + " to " +
+              std::to_string(hottest) +
+              " K: heat comes or goes without end, as by a wall's heat_flux; see heat_to_... in history.csv");
 }
 
 std::vector<float> Heat::wall_temperatures() const {

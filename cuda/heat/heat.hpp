@@ -49,6 +49,8 @@ class Heat {
   void launch_friction(const PairContext&, const Friction&, FluidArrays&);
 
   HeatBalance balance(const FluidArrays&, Span<const FluidConstants>, DiagnosticScratch&) const;
+  // Throws Error where fluid is colder or hotter than anything that is liquid or solid.
+  void require_possible(const FluidArrays&, double time, DiagnosticScratch&) const;
   // [K] of each wall particle by id, that of its site; not-a-number where no heat passes.
   std::vector<float> wall_temperatures() const;
   double reference() const { return reference_; }
@@ -89,6 +91,7 @@ class Heat {
   Buffer<double> site_taken_;  // [J]
   Buffer<double> lost_;        // [J] of each particle by its surface, or gained by friction, in one go
   Buffer<double> entered_;     // [J/kg]
+  Buffer<Quad> directions_;    // unit vectors
   Buffer<double> sums_;        // [J] surface, friction
 };
 

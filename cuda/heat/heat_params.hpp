@@ -30,14 +30,14 @@ struct SiteView {
 };
 
 struct HeatConstants {
-  Real factor = 0;  // 2 C_T: pair weight of the conduction operator
-  // Of the fill of (H6): Lucy's, which tells a surface from disorder better than steeper functions.
-  Smoothing fill;
-  Real outer_deficit = 1;     // D_1 of (H6)
-  Real least_deficit = 0;     // below it no particle has a surface
-  Real reference = 0;         // [K] of what is stored
-  Real ambient = 0;           // [K]
-  Real surface_transfer = 0;  // h of (H7) [W/(m^2 K)]
+  Real factor = 0;              // 2 C_T: pair weight of the conduction operator
+  Smoothing fill;               // Lucy's, which tells a surface from disorder better than steeper functions
+  Span<const Quad> directions;  // xyz: unit vectors, evenly spread
+  Real flat_share = 1;          // e_0 of (H6)
+  Real drop_exponent = 0;       // of (H6)
+  Real reference = 0;           // [K] of what is stored
+  Real ambient = 0;             // [K]
+  Real surface_transfer = 0;    // h of (H7) [W/(m^2 K)]
 };
 
 // G_ij of (H3) over V_i V_j [1/m^5], times the squared distance.

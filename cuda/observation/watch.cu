@@ -3,6 +3,7 @@
 
 #include "backend/error.hpp"
 #include "fluid/constants.hpp"
+#include "heat/heat.hpp"
 #include "observation/watch.hpp"
 
 namespace slagflow {
@@ -54,7 +55,8 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
              " of the particles has left the domain; limits.max_lost_fraction is " +
              number(limits.max_lost_fraction),
          "a larger domain, or close its walls");
-  const double least_step = limits.min_time_step_ratio * stable_time_step(setup_);
+  const double least_step =
+      limits.min_time_step_ratio * smaller(stable_time_step(setup_), conduction_time_step(setup_));
   if (now.time_step < least_step)
     fail(now,
          "the time step fell to " + number(now.time_step) + " s; limits.min_time_step_ratio allows " +

@@ -268,6 +268,7 @@ void Simulation::State::look() {
              {time, dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
               last ? last->given : 0, steps, left, inlets.all_fed(), fed_mass()},
              diagnostics);
+  heat.require_possible(fluid, time, diagnostics);
 }
 
 // Names the first particle that is not a number: by its motion, or else by its density, which follows within

@@ -5,33 +5,46 @@
 #include "fluid/melt.hpp"
 #include "heat/material_table.hpp"
 #include "host/case/keys_thermal.hpp"
+#include "host/case/suspension.hpp"
 
 namespace slagflow {
 namespace {
 
 bool complete(const MaterialSetup& m) { return !m.heat_capacity.empty() && !m.conductivity.empty(); }
 
-// The liquid is as viscous as that between its solidus and the hottest fluid.
+// Where all of it is solid, the liquid's viscosity does not matter.
+bool solid_at(const MaterialSetup& m, double temperature) {
+  return solid_fraction_at(m, temperature) >= (m.suspended ? most_fraction(m.suspension) : 1);
+}
+
+std::string unit_of_a(const LiquidViscosity& liquid) {
+  const LiquidLawInfo& law = liquid_laws[static_cast<std::size_t>(liquid.law)];
+  return *law.unit_of_a ? std::string(" (") + law.name + " has A in " + law.unit_of_a + ")" : "";
+}
+
+// Between its solidus and the hottest fluid the liquid is less viscous than what counts as solid.
 void check_viscosity(const Case& c, const FluidSpec& fluid, CaseProblems& problems) {
   constexpr double least = 1e-6;  // [Pa s]
-  const double most = fluid.material.max_viscosity;  // at the hottest, or all of it would be solid
-  const LiquidViscosity& liquid = fluid.material.liquid;
-  const std::string key = "fluid." + fluid.name + ".liquid_viscosity";
-  if (liquid.law == LiquidLaw::constant || !problems.fine_within("fluid." + fluid.name)) return;
+  const MaterialSetup& m = fluid.material;
+  const std::string key =
+      "fluid." + fluid.name +
+      (m.liquid.a > 0 || !m.liquid.rows.empty() ? ".liquid_viscosity"
+                                                : std::string(".") + fluid.info().parameters[0].key);
+  if (!problems.fine_within("fluid." + fluid.name)) return;
   const double hot = c.thermal.reference_temperature;
-  const double cold = fluid.material.solid_fraction.empty() ? hot : fluid.material.solid_fraction.front()[0];
-  if (liquid.law == LiquidLaw::vft && liquid.t0 >= std::min(cold, hot))
-    return problems.add(key, "T0 = " + show(liquid.t0) +
-                                 " is not below all temperatures of the liquid: allowed: < " +
-                                 show(std::min(cold, hot)) + " [K]");
-  for (const double t : {cold, hot}) {
-    const double eta = std::exp(log_liquid_viscosity(liquid, t));
-    if (!(eta >= least && (eta <= most || t < hot)))
-      return problems.add(key, "gives " + show(eta) + " Pa s at " + show(t) + " K (" +
-                                   liquid_laws[static_cast<std::size_t>(liquid.law)].name + " has A in " +
-                                   liquid_laws[static_cast<std::size_t>(liquid.law)].unit_of_a +
-                                   "): allowed: " + show(least) + " to " + show(most) + " [Pa s]");
-  }
+  const double cold = m.solid_fraction.empty() ? hot : m.solid_fraction.front()[0];
+  if (m.liquid.law == LiquidLaw::vft && m.liquid.t0 >= cold)
+    return problems.add(key, "T0 = " + show(m.liquid.t0) +
+                                 " is not below all temperatures of the liquid: allowed: < " + show(cold) +
+                                 " [K]");
+  if (solid_at(m, hot)) return;
+  const double own = fluid.parameters[0];
+  const bool given = m.liquid.a > 0 || !m.liquid.rows.empty();
+  const double eta = given ? std::exp(log_liquid_viscosity(m.liquid, hot)) : own;
+  if (!(eta >= least && eta <= m.max_viscosity))
+    problems.add(key, "gives " + show(eta) + " Pa s at " + show(hot) + " K" + unit_of_a(m.liquid) +
+                          ": allowed: " + show(least) + " to max_viscosity, from which on it is solid, " +
+                          show(m.max_viscosity) + " [Pa s]");
 }
 
 void check_numerics(const Case& c, CaseProblems& problems) {
@@ -72,7 +85,7 @@ void resolve_thermal(Case& c) {
     const MaterialSetup& m = fluid.material;
     if (!complete(m) || !(t.reference_temperature > 0)) continue;
     const double own = fluid.parameters[0];
-    if (own > 0 || m.liquid.a > 0 || !m.liquid.rows.empty())
+    if (m.liquid.a > 0 || !m.liquid.rows.empty())
       fluid.parameters[0] = viscosity_at(m, {own, 0}, t.reference_temperature);
     const int yield = yield_stress_parameter(fluid.rheology);
     if (yield < 0 || m.yield_stress.empty()) continue;

@@ -57,7 +57,7 @@ void describe_yield_stress(CaseVisitor& v, const Key& k, double& value, Material
   const std::string fault = fault_of(rows);
   if (!fault.empty())
     v.problem(k.name, fault);
-  else if (!rows.empty() && m.solid_fraction.empty())
+  else if (!rows.empty() && m.solid_fraction.empty() && !v.given({"solid_fraction", "freezing"}))
     v.problem(k.name,
               "rows over the solid fraction without solids: allowed: a number, or solid_fraction too");
   else if (!rows.empty() && m.suspended && rows.back()[0] < most_fraction(m.suspension))

@@ -14,6 +14,7 @@ const char* const property_rows =
 const char* const fraction_rows =
     "rows [temperature in K, solid fraction], the temperatures rising, the fraction falling from 1 to 0";
 const Words wall_heats{"adiabatic", "temperature", "flux", "semi_infinite"};
+const char* const heat_is_off = "heat is off: a table [thermal] switches it on";
 const Words freezing_laws{"lever", "scheil"};
 
 Words formula_laws() {
@@ -178,6 +179,7 @@ void describe_solids(CaseVisitor& v, MaterialSetup& m) {
 }
 
 void check_material(CaseVisitor& v, const MaterialSetup& m) {
+  if (v.given({"solid_fraction"}) || v.given({"freezing"})) return;  // be it right or wrong
   if (m.latent_heat > 0 && m.solid_fraction.empty())
     v.problem("latent_heat",
               "value " + show(m.latent_heat) +
@@ -196,8 +198,7 @@ bool describe_temperature(CaseVisitor& v, const Key& k, double& value) {
 }
 
 void describe_start_temperature(CaseVisitor& v, const Case& c, const Key& k, double& value) {
-  if (const auto with = v.only(c.thermal.on, {"[thermal]"}, "heat is off: a table [thermal] switches it on"))
-    describe_temperature(v, k, value);
+  if (const auto with = v.only(c.thermal.on, {"[thermal]"}, heat_is_off)) describe_temperature(v, k, value);
 }
 
 void describe_thermal(CaseVisitor& v, Case& c) {
@@ -248,13 +249,14 @@ void describe_material(CaseVisitor& v, MaterialSetup& m) {
 }
 
 void describe_wall_heat(CaseVisitor& v, const Case& c, WallSpec& wall) {
-  const auto on = v.only(c.thermal.on, {"[thermal]"}, "heat is off: a table [thermal] switches it on");
-  if (!on) return;
   WallThermal& t = wall.thermal;
-  if (!v.choice(
-          key("thermal", "adiabatic; at a temperature; with a flux; semi_infinite: thick, it takes up heat"),
-          t.kind, wall_heats))
-    return;
+  if (const auto on = v.only(c.thermal.on, {"[thermal]"}, heat_is_off))
+    if (!v.choice(key("thermal",
+                      "adiabatic; at a temperature; with a flux; semi_infinite: thick, it takes up heat"),
+                  t.kind, wall_heats))
+      return;
+  const auto on = v.only(c.thermal.on, {"[thermal]"});
+  if (!on) return;
   const bool held = t.kind == WallHeat::temperature, thick = t.kind == WallHeat::semi_infinite;
   if (const auto with = v.only(held || thick, {"thermal", {"temperature", "semi_infinite"}})) {
     describe_temperature(v, required("temperature", "held, or of a thick wall at the start"), t.temperature);

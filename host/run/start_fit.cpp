@@ -3,6 +3,7 @@
 #include <array>
 
 #include "backend/error.hpp"
+#include "heat/material_table.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/wall_depth.hpp"
 #include "host/run/start_state.hpp"
@@ -15,6 +16,9 @@ bool begins(const std::string& text, const std::string& with) { return text.rfin
 
 // Why a key must stay; empty: it may change.
 std::string reason_to_stay(const std::string& key, const Case& c) {
+  const std::string end = ".temperature";  // of fluid that had none
+  if (begins(key, "region.") && key.size() > end.size() && key.substr(key.size() - end.size()) == end)
+    return "";
   if (begins(key, "region.")) return "the fluid is that of the state, no region is filled";
   if (key == "numerics.background_pressure") return "it is in the pressures of the state";
   for (const char* name : {"resolution.spacing", "resolution.dimensions", "resolution.origin"})
@@ -88,6 +92,32 @@ std::vector<int> numbers_of(const Case& before, const Case& after) {
   return numbers;
 }
 
+bool same_material(const FluidSpec& a, const FluidSpec& b) {
+  return a.material.heat_capacity == b.material.heat_capacity &&
+         a.material.solid_fraction == b.material.solid_fraction &&
+         a.material.latent_heat == b.material.latent_heat;
+}
+
+// Where a material has changed the fluid keeps its temperature, else its enthalpy, which tells more of it.
+void keep_temperatures(const Case& before, const Case& after, const std::vector<int>& numbers,
+                       FluidParticles& p) {
+  bool changed = false;
+  std::vector<std::vector<MaterialRow>> tables;
+  for (std::size_t k = 0; k < before.fluids.size(); ++k) {
+    const bool there = numbers[k] >= 0;
+    changed = changed ||
+              (there && !same_material(before.fluids[k], after.fluids[static_cast<std::size_t>(numbers[k])]));
+    tables.push_back(material_rows(before.fluids[k].material, {before.fluids[k].parameters[0], 0}, 0));
+  }
+  if (!changed) return;
+  for (std::size_t i = 0; i < p.fluid.size(); ++i) {
+    const std::vector<MaterialRow>& table = tables[p.fluid[i]];
+    const Material material{{table.data(), static_cast<Offset>(table.size())}, 0};
+    p.temperature.push_back(static_cast<double>(material.at_enthalpy(p.memory.enthalpy[i]).temperature));
+  }
+  p.memory.enthalpy.clear();
+}
+
 // Fluid of a state without heat has in a case with heat the temperature that the case gives it.
 void add_temperatures(const Case& c, FluidParticles& p) {
   if (!c.thermal.on || !p.temperature.empty() || !p.memory.enthalpy.empty()) return;
@@ -108,6 +138,7 @@ void start_from(const StartState& start, BuiltCase& built) {
   const Case &before = start.before, &after = built.resolved;
   const std::vector<int> numbers = numbers_of(before, after);
   FluidParticles& p = state.particles;
+  if (!p.memory.enthalpy.empty() && after.thermal.on) keep_temperatures(before, after, numbers, p);
   const double softer = square(before.numerics.sound_speed / after.numerics.sound_speed);
   for (std::size_t i = 0; i < p.position.size(); ++i) {
     const std::size_t kind = p.fluid[i];
@@ -128,6 +159,12 @@ void start_from(const StartState& start, BuiltCase& built) {
     p.pressure.push_back(square(after.numerics.sound_speed) * changed);
   }
   add_temperatures(after, p);
+  if (std::any_of(after.walls.begin(), after.walls.end(),
+                  [](const WallSpec& w) { return w.thermal.kind == WallHeat::semi_infinite; }))
+    built.warnings.push_back(
+        "walls that are semi_infinite begin at their temperature: the heat that they had taken up in the "
+        "other run "
+        "is not carried over; slagflow resume keeps it");
   built.setup.particles = std::move(p);
   built.setup.start_time = state.time, built.setup.last_step = state.last_step;
 }

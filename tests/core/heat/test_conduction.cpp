@@ -16,7 +16,7 @@ using namespace testing_tools;
 // resistance, a side that is held, a plate with a flux.
 class Conduction : public testing::TestWithParam<SceneOptions> {
  protected:
-  static constexpr double dt = 0.5, threshold = 0.12;
+  static constexpr double dt = 0.5, inside = 0.01;
 
   Conduction() : scene_(GetParam()), heat_(scene_.context) {
     scene_.upload();
@@ -76,20 +76,18 @@ class Conduction : public testing::TestWithParam<SceneOptions> {
     oracle_.site.assign(sites.of_wall.begin(), sites.of_wall.end());
     oracle_.site_area = sites.area;
     for (const std::uint8_t body : sites.body) oracle_.site_body.push_back(body);
-    oracle_.outer_deficit = deficit_of_a_plane();
-  }
-
-  // Of the top particle of a lattice that fills a half-space.
-  double deficit_of_a_plane() const {
-    const reference::SmoothingFunction w{reference::Kernel::lucy, scene_.world.support,
-                                         scene_.world.dimensions};
-    const int across = scene_.world.dimensions == 3 ? 3 : 0;
-    double fill = 0;
-    for (int i = -3; i <= 3; ++i)
-      for (int j = -across; j <= across; ++j)
-        for (int k = -3; k <= 0; ++k)
-          fill += scene_.world.wall_volume() * w.value(Scene::spacing * std::sqrt(i * i + j * j + k * k));
-    return 1 - fill;
+    const double pi = reference::pi;
+    const bool flat = s.dimensions == 2;
+    for (int k = 0; k < 128; ++k) {
+      const double along = (k + 0.5) / 128, z = 1 - 2 * along, r = std::sqrt(1 - z * z);
+      const double turn = flat ? 2 * pi * along : pi * (1 + std::sqrt(5.0)) * (k + 0.5);
+      oracle_.directions.push_back(flat ? reference::Vec{std::cos(turn), 0, std::sin(turn)}
+                                        : reference::Vec{r * std::cos(turn), r * std::sin(turn), z});
+    }
+    // Of the circle a sixth; of the sphere what is over a square of one spacing, 1.10257 of 4 pi.
+    oracle_.flat_share = flat ? 1.0 / 6 : 1.10257119 / (4 * pi);
+    const double ball = flat ? 2 * std::sqrt(pi) : std::cbrt(36 * pi);
+    oracle_.drop_exponent = std::log(ball / 2) / std::log(1 / (2 * oracle_.flat_share));
   }
 
   std::vector<double> changes() {
@@ -109,10 +107,15 @@ TEST_P(Conduction, AgreesWithTheOracle) {
   const std::vector<double> change = changes();
   const auto walls = oracle_.from_walls();
   int open = 0;
+  bool unclear = false;
   double surface = 0;
   for (std::size_t i = 0; i < change.size(); ++i) {
-    if (std::fabs(oracle_.deficit(i) - threshold) < 1e-5) continue;  // either is right
-    const double lost = oracle_.lost(i, threshold);
+    if (std::fabs(oracle_.deficit(i) - inside) < 1e-5) continue;  // either is right
+    const double lost = oracle_.lost(i, inside);
+    if (std::isnan(lost)) {
+      unclear = true;
+      continue;
+    }
     const reference::HeatWorld::Flow conducted = oracle_.conducted(i);
     const double power = conducted.value + walls.particle[i] - lost;
     const double size = std::fabs(walls.particle[i]) + lost + conducted.size;
@@ -123,7 +126,9 @@ TEST_P(Conduction, AgreesWithTheOracle) {
   EXPECT_GT(open, 0);
   DiagnosticScratch scratch(scene_.context);
   const HeatBalance balance = heat_.balance(scene_.fluid, scene_.fluids.span(), scratch);
-  EXPECT_NEAR(balance.surface, surface, 2e-4 * surface);
+  if (!unclear) {
+    EXPECT_NEAR(balance.surface, surface, 2e-4 * surface);
+  }
   double all = 0;
   for (std::size_t body = 0; body < oracle_.bodies.size(); ++body) {
     double taken = 0;
