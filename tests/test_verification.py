@@ -15,7 +15,7 @@ except ImportError as missing:
 
 PROJECT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(PROJECT / "tests"), str(PROJECT / "scripts")]
-from verification import closed_forms, comparisons, report  # noqa: E402
+from verification import closed_forms, comparisons, heat_forms, report  # noqa: E402
 from verification.suite import bound_row, length_row, profile_row, relative_row  # noqa: E402
 
 SLAG = closed_forms.Papanastasiou(2.25, 2.3, 1e4)
@@ -122,6 +122,30 @@ class Verification(unittest.TestCase):
         self.assertNotIn("old", text)
         self.assertIn("| `flow` | 20 | depth | 1.2 | 1 | 20.00 % | 2 % | **missed** |", text)
         self.assertIn("- flow: too coarse", text)
+
+
+class HeatForms(unittest.TestCase):
+    """Against figures worked out elsewhere: series of Carslaw and Jaeger (1959), finite volumes of 400 cells."""
+
+    def test_slabs(self):
+        self.assertAlmostEqual(float(heat_forms.slab_between_walls(np.array([0.2]), 0.05)[0]), 0.46164652, places=7)
+        self.assertAlmostEqual(heat_forms.slab_with_convection_mean(1, 0.5), 0.68110457, places=7)
+        self.assertAlmostEqual(float(heat_forms.slab_with_convection(np.array([1.0]), 1, 0.5)[0]), 0.50452193, places=6)
+
+    def test_neumann(self):
+        problem = heat_forms.Neumann((1.6, 1050, 2800), (0.8, 1300, 2800), (373.15, 1623.15, 1723.15), 2.1e5)
+        self.assertAlmostEqual(problem.root, 0.96803218, places=6)
+
+    def test_friction(self):
+        stress, warming = heat_forms.couette_with_friction(8)
+        self.assertAlmostEqual(stress, 0.62322524, places=7)
+        self.assertAlmostEqual(warming, 0.69314718, places=7)
+
+    def test_a_radiating_sheet(self):
+        material = heat_forms.Material([(300, 1300), (2000, 1300)], [(300, 1), (2000, 1)])
+        loss = heat_forms.surface_loss(material, 0.9, 10, 300)
+        half = heat_forms.Slab(0.005, 100, 2800, material).run(1673, 5, 2e-3, lambda *_: 0.0, loss)
+        self.assertAlmostEqual(half.lost_above / 1.19832e6, 1, places=2)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ void Simulation::step() {
     s.full_dt = smaller(s.longest_step(), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
   }
   s.choose_time_step();
-  s.place_walls();  // with the velocities of this step
+  s.place_walls();                         // with the velocities of this step
   constexpr std::int64_t most_steps = 20;  // without conduction: about as many as between builds of the lists
   if (s.heat.due(s.time + s.dt, s.dt, lists_are_new || s.steps % most_steps == 0))
     s.heat.conduct(s.pairs(), s.wall_to_fluid.view(), s.time + s.dt, s.fluid);

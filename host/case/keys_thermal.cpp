@@ -150,7 +150,7 @@ void describe_freezing(CaseVisitor& v, MaterialSetup& m) {
 }
 
 std::string fraction_fault(const ValueRows& rows) {
-  const std::string fault = order_fault(rows, true, fraction_rows);
+  std::string fault = order_fault(rows, true, fraction_rows);
   if (!fault.empty()) return fault;
   for (std::size_t k = 0; k < rows.size(); ++k)
     if (!(rows[k][1] >= 0 && rows[k][1] <= 1) || (k > 0 && rows[k][1] > rows[k - 1][1]))

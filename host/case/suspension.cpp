@@ -44,7 +44,7 @@ std::string fault_of(const YieldRows& rows) {
 }
 
 std::string fault_of(const YieldRows& rows, const SuspensionSpec& suspension) {
-  const std::string fault = fault_of(rows);
+  std::string fault = fault_of(rows);
   if (!fault.empty()) return fault;
   if (suspension.complete && suspension.solid_fraction > rows.back()[0])
     return "the table ends at the solid fraction " + show(rows.back()[0]) +

@@ -167,7 +167,8 @@ std::vector<std::string> WallSurvey::warnings() const {
     if (thin.count > 0)
       lines.push_back(wall + " is " + number + " thick at " + place(thin.first) +
                       ", where it is thinnest, and thinner than three spacings at " +
-                      std::to_string(thin.count) + all + ": fluid may pass, and heat; allowed: three spacings or more");
+                      std::to_string(thin.count) + all +
+                      ": fluid may pass, and heat; allowed: three spacings or more");
     if (steps_[b].count > 0)
       lines.push_back(wall + " has steps less than two spacings wide at " + std::to_string(steps_[b].count) +
                       all + ", the first at " + place(steps_[b].first) +
