@@ -94,7 +94,7 @@ def figure_of(runs, steps, pictures, quantity, path, titles):
             axes.imshow(picture, interpolation="antialiased")
             axes.axis("off")
             time = f"t = {run.fluid.times[steps[k][row]]:.3g} s"
-            axes.set_title(f"{titles[k]}, {time}" if len(runs) > 1 else time, loc="left", fontsize=9, pad=2)
+            axes.set_title(f"{titles[k]}, {time}" if len(runs) > 1 else time, loc="left", x=0.02, fontsize=9, pad=2)
     names = list(dict.fromkeys(run.title for run in runs))
     title = textwrap.shorten(", ".join(names).replace("_", " "), int(9 * total[0]), placeholder=" and more")
     figure.suptitle(title, fontsize=12, y=1 - 0.18 / total[1], va="center")

@@ -43,7 +43,7 @@ void expect_same(const FluidSnapshot& a, const FluidSnapshot& b) {
 
 TEST(Heat, IsKeptWhileFluidMovesAndLeaves) {
   Simulation simulation(hot_dam());
-  run(simulation, 400);
+  run(simulation, 150);
   const Totals t = simulation.totals();
   ASSERT_TRUE(t.heat_is_on);
   EXPECT_GT(t.mass_left, 0);
