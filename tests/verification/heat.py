@@ -25,6 +25,8 @@ def runs(quick):
               Run("heat_sheet", "heat_sheet", "sheet, 20 across"),
               Run("heat_sheet_radiation", "heat_sheet", "sheet, 20 across, radiation", RADIATION)]
     flows = [Run("heat_poiseuille", "heat_poiseuille", "channel of two temperatures, 20 across"),
+             *(Run(f"heat_pool_{eta}", "heat_pool", f"pool after a dam break, {eta} Pa s", {"fluid.slag.dynamic_viscosity": eta})
+               for eta in (0.1, 1)),
              Run("heat_crust", "heat_crust", "melt over crust, 20 across"), Run("ring_on_roll", "ring_on_roll", "crust on a roll")]
     if quick:
         return static + flows
@@ -46,6 +48,7 @@ def contact(biot):
 def rows(results):
     by_case = {"heat_slab": slab_rows, "heat_steel": steel_rows, "heat_freezing": freezing_rows, "/skull": skull_rows, "heat_sheet": sheet_rows,
                "heat_sphere": sphere_rows, "heat_poiseuille": poiseuille_rows, "heat_crust": crust_rows, "ring_on_roll": ring_rows,
+               "heat_pool": pool_rows,
                "heat_couette": couette_rows, "heat_layer": layer_rows}
     found = []
     for result in results:
@@ -160,6 +163,16 @@ def poiseuille_rows(result):
     return [profile_row(result.resolution, "velocity", state.velocity[:, 0], np.interp(state.position[:, 2], y, u), 0.01),
             relative_row(result.resolution, "flow rate [m²/s]", flow, float(np.trapezoid(u, y)) if hasattr(np, "trapezoid")
                          else float(np.trapz(u, y)), 0.02)]
+
+
+def pool_rows(result):
+    """From 1 s on, when it is flat: h (T - T_a) over the width of the trough."""
+    history, start = result.history, 1.0
+    first = int(np.argmin(np.abs(np.asarray(history["time_s"]) - start)))
+    span = float(history["time_s"][-1]) - float(history["time_s"][first])
+    lost = (float(history["heat_by_surface_J"][-1]) - float(history["heat_by_surface_J"][first])) / span
+    surface = 0.5 * (float(history["max_temperature_K"][-1]) + float(history["min_temperature_K"][-1]))
+    return [relative_row(result.resolution, "heat lost by the surface [W/m]", lost, 100 * (surface - 300) * 0.056, 0.04)]
 
 
 def crust_rows(result):
