@@ -23,6 +23,41 @@ def shapes_in_words(part):
     return ", ".join(f"{words.count(w)} x {w}" if words.count(w) > 1 else w for w in dict.fromkeys(words))
 
 
+def celsius(kelvin):
+    return f"{kelvin - 273.15:.4g} °C"
+
+
+def heat_of_wall(wall):
+    kind = wall.get("thermal", "adiabatic")
+    if kind in ("temperature", "semi_infinite"):
+        return f"{'held at' if kind == 'temperature' else 'thick, at first at'} {celsius(wall['temperature'])}"
+    return f"gives {wall['heat_flux']:.4g} W/m²" if kind == "flux" else ""
+
+
+def heat_asked(case):
+    """Rows of what a case says of heat; none without [thermal]."""
+    if "thermal" not in case:
+        return []
+    thermal = case["thermal"]
+    starts = sorted({r["temperature"] for r in [*case.get("region", []), *case.get("inlet", [])] if "temperature" in r})
+    rows = [("heat", text(f"fluid starts or comes in at {' and '.join(map(celsius, starts))}; surroundings at "
+                          f"{celsius(thermal['ambient_temperature'])}, {thermal['surface_heat_transfer']:.4g} W/m²K"))]
+    for name, fluid in case.get("fluid", {}).items():
+        solids = fluid.get("solid_fraction") or []
+        freezes = f"freezes from {celsius(solids[-1][0])} to {celsius(solids[0][0])}, {fluid.get('latent_heat', 0):.4g} J/kg" if solids else ""
+        shines = f"emissivity {fluid['emissivity']:.3g}" if fluid.get("emissivity") and thermal.get("radiation", True) else ""
+        rows.append((f"heat of {name}", text("; ".join(w for w in (freezes, shines) if w))))
+    return rows
+
+
+def heat_trusted(summary):
+    heat = summary.get("heat")
+    if not heat:
+        return ""
+    walls = sum(heat["to_walls"].values())
+    return f"{heat['by_surface']:.4g} J lost by surfaces, {walls:.4g} J to walls; the balance is off by {heat['error']:.2g} J"
+
+
 def asked(run):
     """Rows of what the case says."""
     case = run.case
@@ -30,11 +65,12 @@ def asked(run):
     for wall in case.get("wall", []):
         motion = wall.get("motion", {}).get("type", "rest")
         words = [shapes_in_words(wall), "" if motion == "rest" else f"moves: {motion}", "" if wall.get("slip", "no_slip") == "no_slip" else wall["slip"]]
-        rows.append((f"wall {wall.get('name', '')}", text("; ".join(w for w in words if w))))
+        rows.append((f"wall {wall.get('name', '')}", text("; ".join(w for w in [*words, heat_of_wall(wall)] if w))))
     for inlet in case.get("inlet", []):
         flow = next((f"{key} {inlet[key]}" for key in ("volume_flow", "mass_flow", "velocity") if key in inlet), "")
         rows.append((f"inlet {inlet.get('name', '')}", text(f"{inlet.get('face', '')}, {flow} in SI units")))
     rows += [(f"outlet {outlet.get('name', '')}", text(outlet.get("shape", ""))) for outlet in case.get("outlet", [])]
+    rows += heat_asked(case)
     domain = case.get("domain", {})
     gravity = case.get("gravity", {}).get("acceleration")
     rows.append(("domain", text(f"{domain.get('min')} to {domain.get('max')} m, {run.dimensions} dimensions")))
@@ -67,6 +103,7 @@ def trust(run):
              if {"mass_start", "mass_in", "mass_left"} <= s.keys() else ""),
             ("energy at the end", f"{s['kinetic_energy']:.3g} J kinetic, {s['potential_energy']:.3g} J potential, {s['dissipated_energy']:.3g} J dissipated so far"
              if {"kinetic_energy", "potential_energy", "dissipated_energy"} <= s.keys() else ""),
+            ("heat", heat_trusted(s)),
             ("largest compression", f"{100 * s['max_compression']:.3g} % at {s.get('max_compression_time', 0):.4g} s" if "max_compression" in s else ""),
             ("deepest in a wall", f"{walls['deepest_spacings']:.2g} spacings" if "deepest_spacings" in walls else ""),
             ("in thin sheets", f"{s['in_thin_sheets']['most']} particles at most" if "in_thin_sheets" in s else ""),
