@@ -269,7 +269,8 @@ class Plot(unittest.TestCase):
                  "pool_highest_m": "Level", "pool_mean_thickness_m": "Thickness of the fluid", "pool_covered_share": "Touched or covered share",
                  "weir_forward_kg": "Mass passed", "tap_mass_fed_kg": "Mass fed and taken", "lining_wetted_share": "Touched or covered share",
                  "lining_largest_pressure_Pa": "Pressure on a wall", "out_p50_s": "Time since it came in", "out_inside_mean_s": "Time since it came in",
-                 "stir_index": "Mixing index", "max_temperature_K": "Temperature", "heat_to_pot_J": "Heat", "lid_pressure_x_N": "Force"}
+                 "stir_index": "Mixing index", "max_temperature_K": "Temperature", "heat_to_pot_J": "Heat lost and gained",
+                 "heat_content_J": "Heat of the fluid, fed and left", "rim_taken_J": "Heat taken by a wall", "lid_pressure_x_N": "Force"}
         for name, title in names.items():
             found = history.panels_of({name: np.array([1.0, 2.0])})
             self.assertEqual([panel[0] for panel in found], [title], name)
