@@ -10,8 +10,7 @@ namespace slagflow {
 void Simulation::step() {
   State& s = *state_;
   s.place_walls();
-  const bool lists_are_new = !s.lists_hold();
-  if (lists_are_new) {
+  if (!s.lists_hold()) {
     s.rebuild();
     // A particle may not cross a quarter of the support in one step.
     const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics),
@@ -20,8 +19,8 @@ void Simulation::step() {
   }
   s.choose_time_step();
   s.place_walls();                         // with the velocities of this step
-  constexpr std::int64_t most_steps = 20;  // without conduction: about as many as between builds of the lists
-  if (s.heat.due(s.time + s.dt, s.dt, lists_are_new || s.steps % most_steps == 0))
+  constexpr std::int64_t most_steps = 20;  // without conduction
+  if (s.heat.due(s.time + s.dt, s.dt, s.steps % most_steps == 0))
     s.heat.conduct(s.pairs(), s.wall_to_fluid.view(), s.time + s.dt, s.fluid);
   if (s.fluid.count > 0) {
     s.last = s.solve_and_move();
