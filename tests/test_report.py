@@ -86,6 +86,7 @@ class Report(SurfaceCase):
         self.assertIn("data:image/png;base64,", text)
         for words in ("block", "oil (front): arrived after 0.05 s", "a <b>bold</b> warning", "early one", "fluid oil", "newtonian, 900 kg/m³, 1 Pa s"):
             self.assertIn(words, "\n".join(seen.words))
+        self.assertRegex("\n".join(seen.words), r"of \d{3} comparisons with closed forms and experiments \d{3} reach their target, \d+ miss it")
         self.assertNotIn("results in", "".join(seen.words))
 
     def test_what_is_no_run_is_an_error(self):
