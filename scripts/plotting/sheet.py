@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
+import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
@@ -23,9 +24,27 @@ SEVERAL = 900  # pixels along the longer side of each of several pictures
 ROWS = 3  # times of runs side by side
 
 
+def dam_number(run):
+    """N = rho L sqrt(g H)/eta of a single fluid as it starts, H its extent along gravity and L the smaller one across; None where
+    there is no fluid at the start, no gravity, or not one viscosity."""
+    fluids = list(run.case.get("fluid", {}).values())
+    gravity = np.array(run.case.get("gravity", {}).get("acceleration", [0, 0, -9.81]), dtype=float)
+    eta = next((f[key] for f in fluids for key in ("dynamic_viscosity", "plastic_viscosity", "casson_viscosity") if key in f), None)
+    density = fluids[0].get("density") if fluids else None
+    if len(fluids) != 1 or eta is None or density is None or not gravity.any() or run.fluid.count(0) == 0:
+        return None
+    extent = np.ptp(run.fluid.positions(0), axis=0) + run.spacing
+    down = int(np.argmax(np.abs(gravity)))
+    across = [extent[k] for k in range(3) if k != down and not (k == 1 and run.dimensions == 2)]
+    return float(density * min(across) * np.sqrt(np.linalg.norm(gravity) * extent[down]) / eta)
+
+
 def caption(run):
     counts = run.summary.get("particles", {})
     parts = [f"{name}: {words}" for name, words in run.fluids_in_words().items()]
+    number = dam_number(run)
+    if number is not None:
+        parts.append(f"N = {number:.3g}")
     parts.append(f"spacing {1000 * run.spacing:.3g} mm")
     if counts.get("fluid"):
         parts.append(f"{counts['fluid']:,} particles".replace(",", "\u202f"))
@@ -39,7 +58,7 @@ def caption_of(runs):
         return captions.pop()
     spacings = {f"spacing {1000 * run.spacing:.3g} mm" for run in runs}
     fluids = {repr(run.fluids_in_words()) for run in runs}
-    return "; ".join([caption(runs[0]).split("; spacing")[0] if len(fluids) == 1 else "fluids differ", spacings.pop() if len(spacings) == 1 else "spacings differ"])
+    return "; ".join([caption(runs[0]).split("; N = ")[0].split("; spacing")[0] if len(fluids) == 1 else "fluids differ", spacings.pop() if len(spacings) == 1 else "spacings differ"])
 
 
 def times_of_all(runs):
