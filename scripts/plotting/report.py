@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 import slagflow
-from plotting import history, surface
+from plotting import history, sheet, surface
 from plotting.page import MOST_PAGE, ReportError, figure_html, movie_html, number, picture_html, plots_html, table, text, tools, whole
 from plotting.quantity import QUANTITIES
 from plotting.scene import scene
@@ -158,7 +158,11 @@ def page(run, colour):
     status = "" if run.summary.get("status") in (None, "done") else f" ({run.summary['status']})"
     parts = [f"<h1>{text(run.title.replace('_', ' '))}</h1><p class='lead'>{text(run.case.get('case', {}).get('description', ''))}{text(status)}</p>"]
     parts += [f"<p class='warning'>{text(line)}</p>" for line in warnings]
-    parts.append(picture_html(run.path / "pictures/surface.png", "The free surface at some times"))
+    picture = run.path / "pictures/surface.png"
+    if not picture.exists():
+        picture.parent.mkdir(exist_ok=True)
+        sheet.draw([run], None, colour, picture)
+    parts.append(picture_html(picture, "The free surface at some times"))
     parts.append(f"<section class='live'><h2>In three dimensions</h2><p class='lead'>Turn it with the mouse; <em>Controls</em>, <em>Play loop</em> in its corner plays its "
                  f"{times} times. Colours: {text(' '.join(label.split()))}.</p><iframe title='The flow in three dimensions' loading='eager' srcdoc=\"{html.escape(view)}\"></iframe></section>")
     place = len(parts)  # of the movie, which takes what room is left
