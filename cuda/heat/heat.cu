@@ -300,6 +300,16 @@ double Heat::content(const FluidArrays& fluid, Span<const FluidConstants> fluids
                ContentTerm{fluids, fluid.fluid.span(), fluid.enthalpy.span()});
 }
 
+// Not-a-number without fluid.
+Heat::Extremes Heat::extremes(const FluidArrays& fluid, DiagnosticScratch& scratch) const {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (fluid.count == 0) return {unknown, unknown};
+  const auto most = [&](double sign) {
+    return largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), sign});
+  };
+  return {reference_ - most(-1), reference_ + most(1)};
+}
+
 HeatBalance Heat::balance(const FluidArrays& fluid, Span<const FluidConstants> fluids,
                           DiagnosticScratch& scratch) const {
   HeatBalance balance;
@@ -310,21 +320,15 @@ HeatBalance Heat::balance(const FluidArrays& fluid, Span<const FluidConstants> f
   balance.surface = sums[heat_by_surface], balance.viscous = sums[heat_by_friction];
   balance.walls.assign(bodies_count_, 0);
   for (std::size_t s = 0; s < taken.size(); ++s) balance.walls[site_bodies_[s]] += taken[s];
-  balance.coolest = balance.hottest = std::numeric_limits<double>::quiet_NaN();
-  if (fluid.count > 0) {
-    balance.hottest = reference_ + largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), 1});
-    balance.coolest =
-        reference_ - largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), -1});
-  }
+  const auto [coolest, hottest] = extremes(fluid, scratch);
+  balance.coolest = coolest, balance.hottest = hottest;
   return balance;
 }
 
 void Heat::require_possible(const FluidArrays& fluid, double time, DiagnosticScratch& scratch) const {
   constexpr double coldest = 20, hottest = 8000;  // [K]
   if (!on_ || fluid.count == 0) return;
-  const double most = reference_ + largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), 1});
-  const double least =
-      reference_ - largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), -1});
+  const auto [least, most] = extremes(fluid, scratch);
   if (least >= coldest && most <= hottest) return;
   throw Error("the fluid has from " + std::to_string(least) + " to " + std::to_string(most) + " K at " +
               std::to_string(time) + " s, and can have " + std::to_string(coldest) + " to " +

@@ -66,6 +66,10 @@ class Heat {
   }
 
  private:
+  struct Extremes {
+    double coolest, hottest;  // [K]
+  };
+  Extremes extremes(const FluidArrays&, DiagnosticScratch&) const;
   void upload_materials(const SimulationSetup&);
   void upload_bodies(const SimulationSetup&);
   void update(FluidArrays&, Index first);

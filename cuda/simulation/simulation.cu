@@ -156,8 +156,10 @@ void Simulation::State::rebuild() {
   residence.leave(fluid, ordering.outlets(), time, diagnostics);
   const bool fed = feed();
   const double content = heat.any() ? heat.content(fluid, fluids.span(), diagnostics) : 0;
+  const Index before = fluid.count;
   ordering.sort(fluid, departed);
-  if (heat.any()) heat.note_left(content, heat.content(fluid, fluids.span(), diagnostics));
+  if (heat.any() && fluid.count < before)
+    heat.note_left(content, heat.content(fluid, fluids.span(), diagnostics));
   check_departure();
   if (walls.any()) ordering.sort(wall);
   build_lists();
