@@ -92,7 +92,7 @@ def slab_rows(result):
         mean = forms.slab_with_convection_mean(biot, fourier)
     lost = slag["density"] * slag["heat_capacity"] * 1000 * height * (1 - mean)
     heat = heat_to(result, "floor") + heat_to(result, "lid")
-    return [profile_row(result.resolution, "temperature", above, exact, 0.015 if jitter else 0.005 if transfer == "perfect" else 0.012),
+    return [profile_row(result.resolution, "temperature", above, exact, 0.015 if jitter else 0.005),
             relative_row(result.resolution, "heat to the walls [J/m²]", heat, lost, 0.02 if jitter else 0.01)]
 
 
@@ -204,7 +204,7 @@ def couette_rows(result):
     measured = abs(result.summary["measures"]["drag"]["viscous_force"]["x"]) / width(result)
     warmest = float(np.max(result.last("Temperature"))) - 1400
     return [relative_row(result.resolution, "stress [Pa]", measured, stress * 10 * 1 / 0.01, 0.01),
-            relative_row(result.resolution, "largest warming [K]", warmest, warming / 0.01, 0.02)]
+            relative_row(result.resolution, "largest warming [K]", warmest, warming / 0.01, 0.015)]
 
 
 def layer_rows(result):
