@@ -32,28 +32,18 @@ struct CellGrid {
   }
 
   // Calls visit(first_cell, last_cell) for runs of cells that follow each other in memory and together hold
-  // every place closer than `reach` [m] to `place`, each cell once.
+  // every place closer than `reach` [m] to `place`, each cell once, in ascending order.
   template <class Visit>
   HOST_DEVICE void for_cells_within(Vec3 place, Real reach, Visit visit) const {
     const Real wide = reach * Real(1.001);  // rounding must not lose a place
     const Around y = around(1, place.y, wide), z = around(2, place.z, wide);
-    for (int k = z.first; k <= z.last; ++k) {
+    for_line(2, z, [&](int k, int cell_z) {
       const Real beyond_z = square(wide) - square(gap(2, k, place.z, z));
-      for (int j = y.first; j <= y.last; ++j) {
+      for_line(1, y, [&](int j, int cell_y) {
         const Real beyond = beyond_z - square(gap(1, j, place.y, y));
-        if (beyond <= 0) continue;
-        const Index row = (wrapped(2, k) * count[1] + wrapped(1, j)) * count[0];
-        visit_run(row, around(0, place.x, std::sqrt(beyond)), visit);
-      }
-    }
-  }
-
-  // Calls visit(cell) for the cells up to `range` away from cell (x, y, z), itself included, each once.
-  template <class Visit>
-  HOST_DEVICE void for_cells_around(int cx, int cy, int cz, int range, Visit visit) const {
-    const Around x = around(0, cx, range);
-    for_rows_around(cy, cz, range, [&](Index row) {
-      for (int c = x.first; c <= x.last; ++c) visit(row + wrapped(0, c));
+        if (beyond <= 0) return;
+        visit_run((cell_z * count[1] + cell_y) * count[0], around(0, place.x, std::sqrt(beyond)), visit);
+      });
     });
   }
 
@@ -66,7 +56,8 @@ struct CellGrid {
     for (int k = line.first; k <= line.last; ++k) visit(cell + (wrapped(axis, k) - c) * step);
   }
 
-  // The same cells in runs that follow each other in memory: visit(first_cell, last_cell).
+  // Calls visit(first_cell, last_cell) for the cells up to `range` away from `cell` along each axis, itself
+  // included, each once, in runs that follow each other in memory, in ascending order.
   template <class Visit>
   HOST_DEVICE void for_runs_around(Index cell, int range, Visit visit) const {
     const Around x = around(0, cell % count[0], range);
@@ -112,19 +103,31 @@ struct CellGrid {
     return c < 0 ? (c % n + n) % n : (c >= n ? c % n : c);
   }
 
+  // Calls visit(c, cell) for the cells along an axis, in ascending order: c goes on beyond the ends of a
+  // periodic axis, `cell` is the one it comes round to.
+  template <class Visit>
+  HOST_DEVICE void for_line(int axis, Around line, Visit visit) const {
+    const int n = count[axis];
+    const int below = smaller(line.last, -1), above = larger(line.first, n);  // what comes round
+    for (int c = above; c <= line.last; ++c) visit(c, wrapped(axis, c));
+    for (int c = larger(line.first, 0); c <= smaller(line.last, n - 1); ++c) visit(c, c);
+    for (int c = line.first; c <= below; ++c) visit(c, wrapped(axis, c));
+  }
+
   // Calls visit(row) with the first cell of each row in x.
   template <class Visit>
   HOST_DEVICE void for_rows_around(int cy, int cz, int range, Visit visit) const {
     const Around y = around(1, cy, range), z = around(2, cz, range);
-    for (int k = z.first; k <= z.last; ++k)
-      for (int j = y.first; j <= y.last; ++j) visit((wrapped(2, k) * count[1] + wrapped(1, j)) * count[0]);
+    for_line(2, z, [&](int, int cell_z) {
+      for_line(1, y, [&](int, int cell_y) { visit((cell_z * count[1] + cell_y) * count[0]); });
+    });
   }
 
   template <class Visit>
   HOST_DEVICE void visit_run(Index row, Around x, Visit visit) const {
     const int n = count[0], first = wrapped(0, x.first), last = first + x.last - x.first;
-    visit(row + first, row + smaller(last, n - 1));
     if (last >= n) visit(row, row + last - n);
+    visit(row + first, row + smaller(last, n - 1));
   }
 };
 

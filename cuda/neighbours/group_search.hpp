@@ -25,51 +25,13 @@ struct Candidates {
   }
 };
 
-// Fills the rows of `targets_per_piece` targets. Rows are collected first; where they go in the list is
-// settled when there are enough of them, in any order: what a row holds does not depend on it.
+// Finds the neighbours of targets that are all of one cell.
 template <class Box>
-struct FillPiece {
-  static constexpr Index targets_per_piece = 256;
-  static constexpr Index grain = 1;    // pieces that a thread takes at a time
-  static constexpr Index room = 8192;  // entries collected
-
+struct GroupSearch {
   Search<Box> search;
-  Span<Offset> row;
-  Span<Index> length;
-  Span<Index> entry;  // too short: nothing is written beyond its end, and `used` tells how long it must be
-  Span<Offset> used;
+  int range;  // cells up to so many away hold all that may be within reach
 
-  struct Collected {
-    Index first = 0, count = 0;  // rows
-    Index size = 0;              // entries
-    Index entries[room];
-  };
-
-  void operator()(Index piece) const {
-    const Index begin = piece * targets_per_piece;
-    const Index end =
-        static_cast<Index>(smaller(static_cast<Offset>(begin) + targets_per_piece, search.targets.size));
-    Candidates near;
-    Collected rows;
-    rows.first = begin;
-    for (Index first = begin; first < end;) {
-      const Index cell = cell_of(first);
-      Index last = first + 1;
-      while (last < end && cell_of(last) == cell) ++last;
-      if (gather_candidates(cell, first, last, near))
-        for (Index i = first; i < last; ++i) collect(i, near, rows);
-      else
-        for (Index i = first; i < last; ++i) search_alone(i, rows);
-      first = last;
-    }
-    flush(rows);
-  }
-
- private:
-  Index cell_of(Index i) const { return search.sources.grid.cell_of(xyz(search.targets[i])); }
-
-  // The sources within reach of the box around targets first to last-1, all of one cell; false when there are
-  // too many.
+  // The sources within reach of the box around targets first to last-1; false when there are too many.
   bool gather_candidates(Index cell, Index first, Index last, Candidates& near) const {
     near.count = 0;
     if (search.occupied.size > 0 && !search.occupied[cell]) return true;
@@ -97,7 +59,7 @@ struct FillPiece {
         fits = near.count <= Candidates::most - lane_count;
       }
     };
-    search.sources.grid.for_runs_around(cell, search.range, visit);
+    search.sources.grid.for_runs_around(cell, range, visit);
     // Targets that are sources follow each other among the candidates too.
     Index place = 0;
     while (search.self && place < near.count && near.number[place] != first) ++place;
@@ -105,13 +67,12 @@ struct FillPiece {
     return fits;
   }
 
-  void collect(Index i, const Candidates& near, Collected& rows) const {
-    if (rows.size + near.count + 2 * lane_count > room) flush(rows);
+  // The neighbours of target i among them, to `to`, where there is room for whole lanes; their number.
+  Index find(Index i, const Candidates& near, Index* to) const {
     const LaneVec3 centre = in_lanes(xyz(search.targets[i]));
     const Lanes limit = square(search.reach);
     const Index own = near.own + i;
-    Index* const start = rows.entries + rows.size;
-    Index* at = start;
+    Index* at = to;
     for (Index k = 0; k < near.count; k += lane_count) {
       const LaneVec3 place{load_lanes(near.x + k), load_lanes(near.y + k), load_lanes(near.z + k)};
       const LaneVec3 d = search.box.separation(centre, place);
@@ -120,40 +81,167 @@ struct FillPiece {
       if (search.self && own >= k && own < k + lane_count) lanes &= ~(1u << (own - k));
       at = append(at, near.number + k, lanes);
     }
-    finish_row(i, static_cast<Index>(at - start), rows);
+    return fill_up(i, to, at);
   }
 
-  // A row among so many sources that they were not gathered.
-  void search_alone(Index i, Collected& rows) const {
-    flush(rows);
+  // The same of all sources around the cell, not gathered; nothing is written from `end` on.
+  Index find_alone(Index i, Index cell, Index* to, const Index* end) const {
+    Index* at = to;
+    look_alone(i, cell, [&](Index j, unsigned lanes) { at = append<1>(at, end, j, lanes); });
+    return fill_up(i, to, at);
+  }
+  Index count_alone(Index i, Index cell) const {
     Index n = 0;
-    search(i, [&](Index, unsigned lanes) { n += number_of(lanes); });
-    const Offset begin = reserve(used, whole_lanes(n));
-    row[i] = begin, length[i] = n;
-    rows.first = i + 1;
-    if (begin + whole_lanes(n) > entry.size) return;
-    Index* at = &entry[begin];
-    const Index* end = at + whole_lanes(n);
-    search(i, [&](Index j, unsigned lanes) { at = append<1>(at, end, j, lanes); });
-    while (at < end) *at++ = search.self ? i : 0;
+    look_alone(i, cell, [&](Index, unsigned lanes) { n += number_of(lanes); });
+    return n;
   }
 
-  void finish_row(Index i, Index n, Collected& rows) const {
-    Index* const start = rows.entries + rows.size;
-    for (Index k = n; k < whole_lanes(n); ++k) start[k] = search.self ? i : 0;
-    length[i] = n;
-    row[i] = rows.size;  // from the first collected row, until they are stored
+ private:
+  template <class Found>
+  void look_alone(Index i, Index cell, Found found) const {
+    const LaneVec3 centre = in_lanes(xyz(search.targets[i]));
+    search.sources.grid.for_runs_around(
+        cell, range, [&](Index first, Index last) { search.find_in(first, last, i, centre, found); });
+  }
+
+  // What fills up the last lanes may be read, but counts for nothing.
+  Index fill_up(Index i, Index* to, const Index* at) const {
+    const auto n = static_cast<Index>(at - to);
+    for (Index k = n; k < whole_lanes(n); ++k) to[k] = search.self ? i : 0;
+    return n;
+  }
+};
+
+// Where rows are stored, each in one piece.
+struct RowStore {
+  Span<Offset> row;
+  Span<Index> length;
+  Span<std::uint8_t> room;  // registers; the most: so many or more
+  Span<Index> entry;  // too short: nothing is written beyond its end, and `used` tells how long it must be
+  Span<Offset> used;
+
+  static constexpr Index most_room = 255;
+  static std::uint8_t registers(Index entries) {
+    return static_cast<std::uint8_t>(smaller(whole_lanes(entries) / lane_count, Offset(most_room)));
+  }
+  // Takes new room for row i, for n entries and `spare` registers.
+  Offset take(Index i, Index n, Index spare) const {
+    const Offset wanted = whole_lanes(n) + spare * lane_count;
+    row[i] = reserve(used, wanted);
+    room[i] = registers(static_cast<Index>(wanted));
+    return row[i];
+  }
+  bool holds(Offset begin, Index n) const { return begin + whole_lanes(n) <= entry.size; }
+};
+
+// Fills the rows of `targets_per_piece` targets. Rows are collected first; where they go in the list is
+// settled when there are enough of them, in any order: what a row holds does not depend on it.
+template <class Box>
+struct FillPiece {
+  static constexpr Index targets_per_piece = 256;
+  static constexpr Index grain = 1;    // pieces that a thread takes at a time
+  static constexpr Index room = 8192;  // entries collected
+
+  GroupSearch<Box> group;
+  RowStore store;
+
+  struct Collected {
+    Index first = 0, count = 0;  // rows
+    Index size = 0;              // entries
+    Index entries[room];
+  };
+
+  void operator()(Index piece) const {
+    const auto& search = group.search;
+    const Index begin = piece * targets_per_piece;
+    const Index end =
+        static_cast<Index>(smaller(static_cast<Offset>(begin) + targets_per_piece, search.targets.size));
+    Candidates near;
+    Collected rows;
+    rows.first = begin;
+    for (Index first = begin; first < end;) {
+      const Index cell = cell_of(first);
+      Index last = first + 1;
+      while (last < end && cell_of(last) == cell) ++last;
+      if (group.gather_candidates(cell, first, last, near))
+        for (Index i = first; i < last; ++i) collect(i, near, rows);
+      else
+        for (Index i = first; i < last; ++i) search_alone(i, cell, rows);
+      first = last;
+    }
+    flush(rows);
+  }
+
+ private:
+  Index cell_of(Index i) const { return group.search.sources.grid.cell_of(xyz(group.search.targets[i])); }
+
+  void collect(Index i, const Candidates& near, Collected& rows) const {
+    if (rows.size + near.count + 2 * lane_count > room) flush(rows);
+    const Index n = group.find(i, near, rows.entries + rows.size);
+    store.length[i] = n;
+    store.row[i] = rows.size;  // from the first collected row, until they are stored
+    store.room[i] = RowStore::registers(n);
     rows.size += static_cast<Index>(whole_lanes(n));
     ++rows.count;
   }
 
+  // A row among so many sources that they were not gathered.
+  void search_alone(Index i, Index cell, Collected& rows) const {
+    flush(rows);
+    const Index n = group.count_alone(i, cell);
+    const Offset begin = store.take(i, n, 0);
+    store.length[i] = n;
+    rows.first = i + 1;
+    if (store.holds(begin, n))
+      group.find_alone(i, cell, &store.entry[begin], &store.entry[begin] + whole_lanes(n));
+  }
+
   void flush(Collected& rows) const {
-    const Offset begin = reserve(used, rows.size);
-    for (Index k = 0; k < rows.count; ++k) row[rows.first + k] += begin;
-    if (begin + rows.size <= entry.size)
-      for (Index k = 0; k < rows.size; ++k) entry[begin + k] = rows.entries[k];
+    const Offset begin = reserve(store.used, rows.size);
+    for (Index k = 0; k < rows.count; ++k) store.row[rows.first + k] += begin;
+    if (begin + rows.size <= store.entry.size)
+      for (Index k = 0; k < rows.size; ++k) store.entry[begin + k] = rows.entries[k];
     rows.first += rows.count;
     rows.count = rows.size = 0;
+  }
+};
+
+// Fills the rows of worn cells anew, where they are when they fit, or else in new room.
+template <class Box>
+struct RefillCell {
+  static constexpr Index grain = 16;  // cells that a thread takes at a time
+
+  GroupSearch<Box> group;
+  RowStore store;
+  Span<const Index> target_start;  // of each cell
+  Span<const std::uint8_t> worn;   // of each cell
+
+  void operator()(Index cell) const {
+    const Index first = target_start[cell], last = target_start[cell + 1];
+    if (!worn[cell] || first == last) return;
+    Candidates near;
+    if (group.gather_candidates(cell, first, last, near)) {
+      Index entries[Candidates::most + lane_count];
+      for (Index i = first; i < last; ++i) {
+        const Index n = group.find(i, near, entries);
+        if (Index* to = place(i, n))
+          for (Offset k = 0; k < whole_lanes(n); ++k) to[k] = entries[k];
+      }
+    } else {
+      for (Index i = first; i < last; ++i) {
+        const Index n = group.count_alone(i, cell);
+        if (Index* to = place(i, n)) group.find_alone(i, cell, to, to + whole_lanes(n));
+      }
+    }
+  }
+
+ private:
+  // Null where there is no room yet.
+  Index* place(Index i, Index n) const {
+    constexpr Index spare = 1;
+    store.length[i] = n;
+    if (whole_lanes(n) > store.room[i] * lane_count) store.take(i, n, spare);
+    return store.holds(store.row[i], n) ? &store.entry[store.row[i]] : nullptr;
   }
 };
 

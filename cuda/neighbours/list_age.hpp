@@ -1,54 +1,68 @@
-// Decides whether neighbour lists still hold all pairs. Falling fluid takes its neighbours along, so what
-// counts is not how far a particle moved since the lists were built but how far it moved against those around
-// it.
+// Decides which rows of the neighbour lists still hold all pairs. Falling fluid takes its neighbours along,
+// so what counts is not how far a particle moved since its row was filled but how far it moved against those
+// around it.
 #pragma once
 
 #include "backend/buffer.hpp"
 #include "fluid/step_record.hpp"
 #include "neighbours/cells.hpp"
+#include "neighbours/list_gate.hpp"
 
 namespace slagflow {
 
-struct ListReach {
-  double support = 0;     // h [m]
-  double fluid_skin = 0;  // a pair of fluid particles not listed is at least h + skin apart when listed
-  double wall_skin = 0;   // the same for a fluid and a wall particle
-  double width = 0;       // narrowest width of a cell [m]
-};
+// Rows that no longer hold are filled anew, or, once any does not, all lists are built anew.
+enum class Renewal { by_cell, of_all };
 
-// Particles as they were sorted when the lists were built, their places then and now.
-struct MovedParticles {
-  SourceView now;
-  Span<const Quad> start;           // places when the lists were built; not needed of particles at rest
-  double largest_displacement = 0;  // of any of them since [m]; 0: all are at rest
-};
-
-// With D_C the mean displacement in a cell C and e_C the largest deviation from it, two particles in cells C,
-// C' approached each other by at most |D_C - D_C'| + e_C + e_C'. The lists hold while this is at most the
-// skin for all cells that are at most two apart, the walls having a D and e of their own, and while no
-// particle moved farther than width - h/2, which keeps particles in cells further apart out of reach.
+// With D_C the mean displacement in a step in a cell C and e_C the largest deviation from it, two particles
+// in cells C, C' approach each other by at most |D_C - D_C'| + e_C + e_C'. A cell's wear is the sum over the
+// steps of the largest of these over the cells that are at most two apart, in skins, the walls having a D and
+// e of their own. Its rows hold while it is at most one, and while no particle moved farther than
+// width - h/2 since all were sorted into cells, which keeps particles in cells further apart out of reach.
 class ListAge {
  public:
-  explicit ListAge(Context&);
+  ListAge(Context&, Renewal);
 
-  bool lists_hold(const MovedParticles& fluid, const MovedParticles& walls, const ListReach&);
+  struct Particles {
+    SourceView now;                   // as they were sorted
+    double largest_displacement = 0;  // of any of them since [m]; 0: all are at rest
+    Span<const std::uint8_t> beside;  // cells that may have some of the other kind near; each cell
+  };
 
-  // The same without waiting or, after reserve(), taking memory, with walls at rest: leaves the approach in
-  // the record, and is idle where the record's displacement alone decides. Then the record decides.
-  void reserve(const CellGrid&);
-  void launch_approach(SourceView fluid, Span<const Quad> start, Span<const Index> wall_start,
-                       const ListReach&, StepRecord*);
-  static bool lists_hold(const StepRecord&, const ListReach&);
+  // All lists have just been built.
+  void begin(const SourceView& fluid, const SourceView& walls);
+
+  // At the end of a step, without waiting: adds what it wore and marks the cells whose rows must be filled
+  // anew. Idle where the record's displacement alone decides. Leaves in record->worn what exceeds the skin
+  // when all lists must be built anew.
+  void launch_look(const Particles& fluid, const Particles& walls, const ListReach&, StepRecord*);
+  // The same at once, for walls that move as well. Whether a look was needed.
+  bool look(const Particles& fluid, const Particles& walls, const ListReach&, StepRecord*);
+  ListGate gate(const ListReach& reach, const StepRecord* record) const {
+    return {record, opened_.span().data, reach};
+  }
+
+  Span<const std::uint8_t> worn() const { return worn_.span(); }              // cells of the fluid
+  Span<const std::uint8_t> walls_worn() const { return walls_worn_.span(); }  // cells of walls
+  bool opened() const;
+
+  template <class Visitor>
+  void save(Visitor& v) {
+    v.as_many("list_opened", opened_), v.as_many("list_wear", wear_), v.as_many("wall_list_wear", wall_wear_);
+  }
+  // After save(): the places of the last look, those of now unless there was none.
+  void restore(const SourceView& fluid, const SourceView& walls);
 
  private:
-  struct Moves;
-  void launch_approach(const Moves&, const MovedParticles& fluid, const MovedParticles& walls,
-                       const ListReach&);
+  void launch(const Particles& fluid, const Particles& walls, const ListGate&, StepRecord*);
 
   Context& context_;
+  Renewal renewal_;
+  Buffer<Quad> before_, walls_before_;  // places at the last look
   // Of each cell: xyz mean, w largest deviation, negative in an empty cell.
   Buffer<Quad> displacement_, wall_displacement_;
-  Buffer<double> approach_;
+  Buffer<Real> wear_, wall_wear_;  // of each cell, in skins
+  Buffer<std::uint8_t> worn_, walls_worn_;
+  Buffer<Index> opened_;  // one: whether there was a look since begin()
 };
 
 }  // namespace slagflow

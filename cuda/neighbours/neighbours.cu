@@ -1,5 +1,5 @@
-#include "backend/launch.hpp"
 #include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 #include "neighbours/group_search.hpp"
 
 namespace slagflow {
@@ -38,6 +38,9 @@ struct CountRow {
   }
 };
 
+// Room for rows of a slice to grow when they are filled anew.
+constexpr Offset spare_entries = 4;
+
 struct MeasureSlice {
   Span<const Index> length;
   Span<Offset> slice_length;
@@ -46,7 +49,7 @@ struct MeasureSlice {
     const Offset first = static_cast<Offset>(s) * slice_width;
     const Offset end = smaller(first + slice_width, length.size);
     for (Offset i = first; i < end; ++i) longest = larger(longest, length[i]);
-    slice_length[s] = whole_lanes(longest) * slice_width;
+    slice_length[s] = (whole_lanes(longest) + spare_entries) * slice_width;
   }
 };
 
@@ -66,38 +69,76 @@ struct FillRow {
   }
 };
 
+struct CellOfTarget {
+  CellGrid grid;
+  Span<const Quad> targets;
+  Span<Index> cell;
+  HOST_DEVICE void operator()(Index i) const { cell[i] = grid.cell_of(xyz(targets[i])); }
+};
+
+// Fills rows of worn cells anew; by how many entries one is too long for its slice.
+template <class Box>
+struct RenewRow {
+  static constexpr int terms = 1;
+  Search<Box> search;
+  Span<const std::uint8_t> worn;  // of each cell
+  Span<const Offset> slice;
+  Span<Index> length, entry;
+  HOST_DEVICE Terms<1> operator()(Index i) const {
+    if (!worn[search.cell[i]]) return {{0}};
+    const Index s = i / slice_width;
+    const auto room = static_cast<Index>((slice[s + 1] - slice[s]) / slice_width);
+    Index* const row = &entry[slice[s] + i % slice_width];
+    Index n = 0;
+    search(i, [&](Index j, unsigned lanes) {
+      if (lanes && n < room) row[static_cast<Offset>(n) * slice_width] = j;
+      n += number_of(lanes);
+    });
+    length[i] = smaller(n, room);
+    return {{static_cast<double>(n - length[i])}};
+  }
+};
+
+struct KeepOverflow {
+  StepRecord* record;
+  HOST_DEVICE void operator()(const Terms<1>& beyond) const {
+    record->worn = larger(record->worn, beyond.value[0]);
+  }
+};
+
 }  // namespace
 
 NeighbourList::NeighbourList(Context& context, const char* name)
     : context_(context),
       length_(context, name),
+      target_cell_(context, name),
       slice_length_(context, name),
       slice_(context, name),
       used_(context, name, 1),
       entry_(context, name),
+      room_(context, name),
       occupied_(context, name),
       spare_(context, name) {}
 
 void NeighbourList::build(const SourceView& sources, Span<const Quad> targets, const PeriodicBox& box,
                           Real reach, Pairs pairs) {
   const bool self = pairs == Pairs::self;
-  const int range = static_cast<int>(std::ceil(static_cast<double>(reach) / sources.grid.narrowest));
   occupied_.resize(0);
-  if (!self) mark_occupied(sources.grid, sources.cell_start, range);
+  if (!self) mark_occupied(sources.grid, sources.cell_start);
   if (box.any())
-    search_and_store(Search<PeriodicBox>{sources, targets, box, reach, range, self, occupied_.span()});
+    search_and_store(Search<PeriodicBox>{sources, targets, box, reach, self, occupied_.span()});
   else
-    search_and_store(Search<OpenBox>{sources, targets, {}, reach, range, self, occupied_.span()});
+    search_and_store(Search<OpenBox>{sources, targets, {}, reach, self, occupied_.span()});
 }
 
 // Most targets are far from any source of the other kind.
-void NeighbourList::mark_occupied(const CellGrid& grid, Span<const Index> cell_start, int range) {
+void NeighbourList::mark_occupied(const CellGrid& grid, Span<const Index> cell_start) {
   const Index cells = grid.cells();
   occupied_.resize(cells), spare_.resize(cells);
   launch(context_, "cells with sources", cells, MarkSources{cell_start, occupied_.span()});
   for (int axis = 0; axis < 3; ++axis) {
     launch(context_, "cells near sources", cells,
-           SpreadMarks{grid, axis, range, occupied_.span(), spare_.span()});
+           SpreadMarks{grid, axis, cells_moved, occupied_.span(), spare_.span()});
     occupied_.swap(spare_);
   }
 }
@@ -111,36 +152,77 @@ void NeighbourList::search_and_store(const Search<Box>& search) {
     store_slices(search);
 }
 
+// On a CPU: room for rows that outgrow theirs, a sixteenth.
+void NeighbourList::make_room() {
+  const Offset used = used_.span()[0];
+  if (used <= entry_.size()) return;
+  const Offset wanted = used + used / (entry_.size() > filled_ ? 4 : 16);
+  entry_.reserve(wanted);
+  entry_.resize(wanted);
+}
+
 template <class Box>
 void NeighbourList::store_rows(const Search<Box>& search) {
   using Fill = FillPiece<Box>;
   const auto n = static_cast<Index>(search.targets.size);
   const Index pieces = (n + Fill::targets_per_piece - 1) / Fill::targets_per_piece;
-  slice_.resize(n);
-  constexpr Offset margin_percent = 1;
+  const int range =
+      static_cast<int>(std::ceil(static_cast<double>(search.reach) / search.sources.grid.narrowest));
+  slice_.resize(n), room_.resize(n);
   for (;;) {
     used_.upload({0});
     launch(context_, "fill neighbours", pieces,
-           Fill{search, slice_.span(), length_.span(), entry_.span(), used_.span()});
-    context_.copy_to_host(&capacity_, used_.span().data, sizeof capacity_);
-    if (capacity_ <= entry_.size()) return;
-    entry_.resize(capacity_, margin_percent);
+           Fill{{search, range}, {slice_.span(), length_.span(), room_.span(), entry_.span(), used_.span()}});
+    const Offset before = entry_.size();
+    make_room();
+    if (entry_.size() == before) break;
   }
+  filled_ = used_.span()[0];
 }
 
 template <class Box>
 void NeighbourList::store_slices(const Search<Box>& search) {
   const auto n = static_cast<Index>(search.targets.size);
   const Index slices = (n + slice_width - 1) / slice_width;
+  target_cell_.resize(n);
   slice_length_.resize(slices);
   slice_.resize(slices + 1);
+  launch(context_, "cells of targets", n,
+         CellOfTarget{search.sources.grid, search.targets, target_cell_.span()});
   launch(context_, "count neighbours", n, CountRow<Box>{search, length_.span()});
   launch(context_, "measure slices", slices, MeasureSlice{length_.span(), slice_length_.span()});
   exclusive_scan(context_, slice_length_.span(), slice_.span());
-  context_.copy_to_host(&capacity_, slice_.span().data + slices, sizeof capacity_);
+  context_.copy_to_host(&filled_, slice_.span().data + slices, sizeof filled_);
   constexpr Offset margin_percent = 1;
-  entry_.resize(capacity_, margin_percent);
+  entry_.resize(filled_, margin_percent);
   launch(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), length_.span(), entry_.span()});
+}
+
+void NeighbourList::renew(const ListedParticles& particles, const Worn& worn) {
+  particles.box.any() ? renew_in(particles.box, particles, worn) : renew_in(OpenBox{}, particles, worn);
+}
+
+template <class Box>
+void NeighbourList::renew_in(const Box& box, const ListedParticles& particles, const Worn& worn) {
+  if constexpr (slice_width == 1) {
+    const IfOpen<RefillCell<Box>> body{
+        {{search(box, particles), cells_moved},  // group
+         {slice_.span(), length_.span(), room_.span(), entry_.span(), used_.span()},
+         particles.target_start,
+         worn.cells},
+        worn.gate};
+    for (Offset before = -1; before != entry_.size(); make_room()) {
+      before = entry_.size();
+      auto again = body;
+      again.store.entry = entry_.span();
+      launch(context_, "renew neighbours", static_cast<Index>(worn.cells.size), again);
+    }
+  } else {
+    const RenewRow<Box> body{search(box, particles), worn.cells, slice_.span(), length_.span(),
+                             entry_.span()};
+    launch_reduction<TakeLargest>(context_, "renew neighbours", static_cast<Index>(particles.targets.size),
+                                  IfOpen<RenewRow<Box>>{body, worn.gate}, KeepOverflow{worn.record});
+  }
 }
 
 }  // namespace slagflow

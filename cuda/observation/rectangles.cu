@@ -34,17 +34,22 @@ struct Passages {
 
 }  // namespace
 
-FluxCounters::FluxCounters(const SimulationSetup& s)
+FluxCounters::FluxCounters(Context& c, const SimulationSetup& s)
     : rectangles_(s.rectangles),
       box_(periodic_box(s)),
       fluids_(s.fluids.size()),
-      counts_(2 * rectangles_.size() * fluids_) {
+      counts_(2 * rectangles_.size() * fluids_),
+      before_(c, "places of the last count") {
   for (RectangleSetup& r : rectangles_) r.center -= s.domain.lower;
 }
 
-void FluxCounters::advance(Context& c, const FluidArrays& f, Span<const Quad> before,
-                           DiagnosticScratch& scratch) {
-  const std::vector<FluxState> now = states(c, f, before, scratch);
+void FluxCounters::start(const FluidArrays& f) {
+  if (any()) before_.copy_from(f.place);
+  way_ = 0;
+}
+
+void FluxCounters::count(Context& c, const FluidArrays& f, DiagnosticScratch& scratch) {
+  const std::vector<FluxState> now = states(c, f, scratch);
   for (std::size_t k = 0; k < now.size(); ++k)
     for (std::size_t kind = 0; kind < fluids_; ++kind) {
       counts_[2 * (k * fluids_ + kind)] = now[k].forward[kind];
@@ -52,13 +57,21 @@ void FluxCounters::advance(Context& c, const FluidArrays& f, Span<const Quad> be
     }
 }
 
-std::vector<FluxState> FluxCounters::states(Context& c, const FluidArrays& f, Span<const Quad> before,
+void FluxCounters::follow(Context& c, const FluidArrays& f, double way, double most,
+                          DiagnosticScratch& scratch) {
+  way_ += way;
+  if (!any() || way_ <= most) return;
+  count(c, f, scratch);
+  start(f);
+}
+
+std::vector<FluxState> FluxCounters::states(Context& c, const FluidArrays& f,
                                             DiagnosticScratch& scratch) const {
   std::vector<FluxState> states(rectangles_.size());
   for (std::size_t k = 0; k < states.size(); ++k)
     for (std::size_t kind = 0; kind < fluids_; ++kind) {
       const RectangleSetup& r = rectangles_[k];
-      const Passages body{before,
+      const Passages body{before_.span(),
                           f.place.span(),
                           f.fluid.span(),
                           static_cast<std::uint8_t>(kind),

@@ -8,22 +8,26 @@
 
 namespace slagflow {
 
-// A particle goes from where it was when the neighbour lists were built to where it is at the next time, or
-// now: a step costs nothing. What goes and comes back in between does not count.
+// A particle goes from where it was at the last count to where it is at the next, or now. What goes and comes
+// back in between does not count, and what goes round an edge must not be taken for what goes through.
 class FluxCounters {
  public:
   // Positions on the device are relative to setup.domain.lower.
-  explicit FluxCounters(const SimulationSetup&);
+  FluxCounters(Context&, const SimulationSetup&);
+  bool any() const { return !rectangles_.empty(); }
 
-  // Before particles are sorted and dropped. `before`: their places at the last rebuild.
-  void advance(Context&, const FluidArrays&, Span<const Quad> before, DiagnosticScratch&);
-  // Now, between two rebuilds.
-  std::vector<FluxState> states(Context&, const FluidArrays&, Span<const Quad> before,
-                                DiagnosticScratch&) const;
+  // Particles have been sorted: from here on they go.
+  void start(const FluidArrays&);
+  // Before particles are sorted and dropped.
+  void count(Context&, const FluidArrays&, DiagnosticScratch&);
+  // After a step in which no particle went farther than `way` [m]: counts when they may have gone `most`.
+  void follow(Context&, const FluidArrays&, double way, double most, DiagnosticScratch&);
+  std::vector<FluxState> states(Context&, const FluidArrays&, DiagnosticScratch&) const;
 
   template <class Visitor>
   void save(Visitor& v) {
-    if (!counts_.empty()) v.as_many("rectangles", counts_);
+    if (!any()) return;
+    v.as_many("rectangles", counts_), v.number(way_), v.array("rectangles_before", before_);
   }
 
  private:
@@ -31,6 +35,8 @@ class FluxCounters {
   PeriodicBox box_;
   std::size_t fluids_;
   std::vector<std::int64_t> counts_;  // by rectangle, by fluid: forward, backward
+  Buffer<Quad> before_;               // places at the last count
+  double way_ = 0;                    // [m] since then, of any particle at most
 };
 
 }  // namespace slagflow

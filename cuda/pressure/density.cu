@@ -94,6 +94,7 @@ struct DensityAndShear {
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
       const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      foresee(j);
       const QuadLanes there = gather(c.fluid.place, j), other = gather(c.fluid.motion, j);
       const LaneVec3 slip = v - xyz(other), d = box.separation(x, xyz(there)) - half * slip;
       const Lanes r2 = dot(d, d);

@@ -51,6 +51,7 @@ struct Shift {
     const Index pairs = list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
       const Index* j = &list.entry[first + k * ListView::stride()];
+      foresee(j);
       const QuadLanes there = gather(places, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);

@@ -6,12 +6,12 @@ namespace slagflow {
 namespace {
 
 struct AdvanceParticle {
-  static constexpr int terms = 2;
+  static constexpr int terms = 3;
   Move move;
   Span<const std::uint8_t> kind;
   Span<Vec3d> position;
   Span<Quad> place, motion;
-  HOST_DEVICE Terms<2> operator()(Index i) const {
+  HOST_DEVICE Terms<3> operator()(Index i) const {
     const Vec3 v = xyz(move.velocity[i]);
     const Vec3d x = position[i] + move.dt * to_double(v);
     const Vec3 rounded = to_real(x);
@@ -21,15 +21,17 @@ struct AdvanceParticle {
     motion[i] = quad(v, excess);
     const Vec3 moved = rounded - xyz(move.reference[i]);
     return {{static_cast<double>(dot(moved, moved)),
-             static_cast<double>(move.fluids[kind[i]].compression(excess))}};
+             static_cast<double>(move.fluids[kind[i]].compression(excess)), static_cast<double>(dot(v, v))}};
   }
 };
 
 struct KeepLargest {
   StepRecord* record;
-  HOST_DEVICE void operator()(const Terms<2>& largest) const {
+  HOST_DEVICE void operator()(const Terms<3>& largest) const {
     record->displacement_squared = larger(largest.value[0], 0.0);
     record->compression = larger(largest.value[1], 0.0);
+    record->speed_squared = larger(largest.value[2], 0.0);
+    record->worn = 0;
   }
 };
 

@@ -17,8 +17,8 @@ struct Move {
 };
 
 // v = the solved velocity, x += dt v (positions in fp64). Leaves in the record the square of the largest
-// distance from the reference, not-a-number when a velocity is, and the largest compression. Idle unless the
-// record says that the solve has converged.
+// distance from the reference, not-a-number when a velocity is, the largest compression and speed. Idle
+// unless the record says that the solve has converged.
 void advance_particles(Context&, FluidArrays&, const Move&, StepRecord*);
 
 // Largest speed [m/s].

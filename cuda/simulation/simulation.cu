@@ -12,11 +12,8 @@ namespace {
 Vec3d extent(const SimulationSetup& s) { return s.domain.upper - s.domain.lower; }
 
 ListReach list_reach(const SimulationSetup& s) {
-  const double h = s.support_ratio * s.spacing;
-  // Fluid slides along walls faster than along itself; wall rows are short, so a thicker skin costs little.
-  constexpr double wall_skins = 2.5;
-  const double skin = s.numerics.skin * h;
-  return {h, skin, wall_skins * skin, h + skin};
+  const double h = s.support_ratio * s.spacing, skin = s.numerics.skin * h;
+  return {h, skin, skin, h + skin};
 }
 
 CellGrid cover_domain(const SimulationSetup& s) {
@@ -35,6 +32,13 @@ std::vector<OutletBox> outlet_boxes(const SimulationSetup& s) {
   for (const OutletSetup& outlet : s.outlets)
     boxes.push_back({outlet.lower - s.domain.lower, outlet.upper - s.domain.lower});
   return boxes;
+}
+
+// The stresses of an exact yield stress belong to the pairs of a list, and the colours of sor to cells that
+// do not touch: there all is built anew.
+Renewal renewal(const SimulationSetup& s) {
+  const bool of_all = s.numerics.yield == YieldModel::exact || s.numerics.solver == ViscousSolver::sor;
+  return of_all ? Renewal::of_all : Renewal::by_cell;
 }
 
 // Of fluid that rests on its lattice.
@@ -69,18 +73,17 @@ Simulation::State::State(const SimulationSetup& s)
       fluid_list(context, "fluid neighbours"),
       wall_list(context, "wall neighbours"),
       wall_to_fluid(context, "fluid neighbours of walls"),
-      list_age(context),
+      list_age(context, renewal(s)),
       wall_forces(context),
       surface_tension(context, setup),
       list_places(context, "places of the list"),
-      wall_list_places(context, "wall places of the list"),
       scratch(context, "scratch"),
       viscous(context, s.numerics),
       heat(context),
       diagnostics(context),
       watch(context, setup),
       planes(s),
-      rectangles(s),
+      rectangles(context, s),
       contact(context),
       residence(context),
       below_faces(context),
@@ -98,6 +101,7 @@ Simulation::State::State(const SimulationSetup& s)
   planes.begin(context, fluid, diagnostics);
   residence.start(setup);
   list_places.copy_from(fluid.place);
+  rectangles.start(fluid);
   rebuild();
   extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   update_density(context, pairs(), fluid, scratch, 0);  // viscosity and shear rate of the start
@@ -152,7 +156,7 @@ void Simulation::State::upload_walls() {
 void Simulation::State::rebuild() {
   Section timer(context, "neighbours");
   planes.advance(context, fluid, list_places.span(), diagnostics, ordering.outlets());
-  rectangles.advance(context, fluid, list_places.span(), diagnostics);
+  if (rectangles.any()) rectangles.count(context, fluid, diagnostics);
   residence.leave(fluid, ordering.outlets(), time, diagnostics);
   const bool fed = feed();
   const double content = heat.any() ? heat.content(fluid, fluids.span(), diagnostics) : 0;
@@ -167,9 +171,10 @@ void Simulation::State::rebuild() {
   // Columns have stepped back: their pressures are those of other places.
   if (fed) extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   list_places.copy_from(fluid.place);
-  if (walls.any()) wall_list_places.copy_from(wall.place);
+  rectangles.start(fluid);
+  list_age.begin(ordering.fluid_sources(fluid), ordering.wall_sources(wall));
   list_time = time;
-  displacement = 0;
+  displacement = lists_worn = 0;
   last.reset();
   ++builds;
 }
@@ -203,15 +208,50 @@ double Simulation::State::fed_mass() const {
   return mass;
 }
 
-void Simulation::State::build_lists() {
-  ++arrangement;
+std::array<NeighbourList*, 3> Simulation::State::lists() { return {&fluid_list, &wall_list, &wall_to_fluid}; }
+
+std::array<ListedParticles, 3> Simulation::State::listed() const {
   const auto fluid_reach = static_cast<Real>(reach.support + reach.fluid_skin);
   const auto wall_reach = static_cast<Real>(reach.support + reach.wall_skin);
-  const auto sources = ordering.fluid_sources(fluid);
-  fluid_list.build(sources, fluid.place.span(), box, fluid_reach, NeighbourList::Pairs::self);
-  wall_list.build(ordering.wall_sources(wall), fluid.place.span(), box, wall_reach,
-                  NeighbourList::Pairs::other);
-  wall_to_fluid.build(sources, wall.place.span(), box, wall_reach, NeighbourList::Pairs::other);
+  const SourceView from_fluid = ordering.fluid_sources(fluid), from_walls = ordering.wall_sources(wall);
+  const Span<const Quad> places = fluid.place.span(), wall_places = wall.place.span();
+  return {{{from_fluid, places, from_fluid.cell_start, box, fluid_reach, Pairs::self},
+           {from_walls, places, from_fluid.cell_start, box, wall_reach, Pairs::other},
+           {from_fluid, wall_places, from_walls.cell_start, box, wall_reach, Pairs::other}}};
+}
+
+void Simulation::State::build_lists() {
+  ++arrangement;
+  const auto particles = listed();
+  for (std::size_t k = 0; k < particles.size(); ++k) {
+    const ListedParticles& p = particles[k];
+    lists()[k]->build(p.sources, p.targets, p.box, p.reach, p.pairs);
+  }
+}
+
+ListAge::Particles Simulation::State::fluid_for_age() const {
+  return {ordering.fluid_sources(fluid), displacement, wall_list.near_sources()};
+}
+ListAge::Particles Simulation::State::walls_for_age() const {
+  return {ordering.wall_sources(wall), largest_wall_displacement(), wall_to_fluid.near_sources()};
+}
+
+void Simulation::State::renew_lists(const ListGate& gate) {
+  if (renewal(setup) == Renewal::of_all) return;
+  const auto particles = listed();
+  const Span<const std::uint8_t> worn[] = {list_age.worn(), list_age.worn(), list_age.walls_worn()};
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    lists()[k]->renew(particles[k], {worn[k], gate, viscous.record()});
+}
+
+// What moving walls ask for at the end of a step, when they are where the next one begins.
+void Simulation::State::follow_moving_walls() {
+  if (!walls.any()) return;
+  Section timer(context, "list age");
+  place_walls();
+  if (!list_age.look(fluid_for_age(), walls_for_age(), reach, viscous.record())) return;
+  renew_lists(list_age.gate(reach, nullptr));
+  lists_worn = viscous.read().worn;
 }
 
 // The walls as they were when the lists were built, in the same order.
@@ -220,18 +260,40 @@ void Simulation::State::restore_walls() {
   inlets.fed_at(list_time);
   walls.place({list_time, dt, 0}, wall), inlets.place({list_time, dt, 0}, wall);
   ordering.sort(wall);
-  wall_list_places.copy_from(wall.place);
 }
 
-// The lists as they were: from the places at which they were built, in the order that the particles still
-// have.
+// The lists as they were: from the places at which all were built, in the order that the particles still
+// have, and what was renewed since.
 void Simulation::State::rebuild_lists_as_saved() {
   fluid.place.swap(list_places);
   ordering.find_cells(fluid);
   build_lists();
+  list_age.restore(ordering.fluid_sources(fluid), ordering.wall_sources(wall));
   fluid.place.swap(list_places);
   if (exact_yield())
     viscous.exact_yield().take_restored({fluid_list, wall_list, fluid.id, wall.id}, next_id());
+  if (!list_age.opened()) return;
+  if (walls.any()) place_walls();
+  list_age.restore(ordering.fluid_sources(fluid), ordering.wall_sources(wall));
+  if (renewal(setup) == Renewal::of_all) return;
+  const auto particles = listed();
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    if (!lists()[k]->recall(particles[k], doubtful(particles[k]), list_bits[k])) lists_worn = 1;
+  list_bits = {};
+}
+
+NeighbourList::Doubtful Simulation::State::doubtful(const ListedParticles& p) const {
+  constexpr double rounding = 1e-3;
+  const double h = reach.support, outer = static_cast<double>(p.reach);
+  return {static_cast<Real>(h * (1 - rounding)), static_cast<Real>(outer + (outer - h) + rounding * h)};
+}
+
+void Simulation::State::remember_lists() {
+  list_bits = {};
+  if (renewal(setup) == Renewal::of_all || !list_age.opened()) return;
+  const auto particles = listed();
+  for (std::size_t k = 0; k < particles.size(); ++k)
+    list_bits[k] = lists()[k]->remember(particles[k], doubtful(particles[k]));
 }
 
 void Simulation::State::check_departure() const {
@@ -243,13 +305,9 @@ void Simulation::State::check_departure() const {
                     "xyz"[face / 2] + " at " + std::to_string(time) + " s, and domain.departure is \"stop\"");
 }
 
-bool Simulation::State::lists_hold() {
-  Section timer(context, "list age");
-  if (walls.vanishes(list_time, time) || inlets.overdue(time)) return false;
-  if (last && !walls.any()) return ListAge::lists_hold(*last, reach);
-  return list_age.lists_hold(
-      {ordering.fluid_sources(fluid), list_places.span(), displacement},
-      {ordering.wall_sources(wall), wall_list_places.span(), largest_wall_displacement()}, reach);
+bool Simulation::State::lists_hold() const {
+  if (walls.vanishes(list_time, time) || inlets.overdue(time) || lists_worn > 0) return false;
+  return judge(displacement, largest_wall_displacement(), reach) != Verdict::broken;
 }
 
 PairContext Simulation::State::pairs() const {

@@ -63,7 +63,7 @@ Totals Simulation::totals() {
   s.tell_passed(t);
   t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
   for (const LineSetup& line : s.setup.levels) t.levels.push_back(level_of(s.profile(line)));
-  t.fluxes = s.rectangles.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
+  t.fluxes = s.rectangles.states(s.context, s.fluid, s.diagnostics);
   for (std::size_t k = 0; k < s.setup.surfaces.size(); ++k) t.surfaces.push_back(surface(k));
   t.contacts = s.contact.states(s.pairs(), s.wall_to_fluid.view());
   t.residences = s.residence.states(s.fluid, s.time, s.diagnostics);

@@ -120,6 +120,7 @@ void visit_clock(Visitor& v, State& s) {
   v.number(s.displacement), v.number(s.taken), v.number(s.given), v.number(s.capillary_work);
   v.number(s.steps), v.number(s.builds);
   v.number(s.largest_compression.value), v.number(s.largest_compression.time);
+  v.number(s.lists_worn);
 }
 
 template <class Visitor>
@@ -136,7 +137,10 @@ void visit_parts(Visitor& v, State& s) {
   s.wall.each(Fate::saved, [&](auto& array) { v.as_many(array.field.name, array); });
   s.wall_forces.save(v), s.planes.save(v), s.rectangles.save(v), s.residence.save(v), s.viscous.save(v),
       s.watch.save(v), s.heat.save(v);
-  v.array("list_places", s.list_places), v.as_many("departed", s.departed);
+  v.array("list_places", s.list_places), s.list_age.save(v);
+  const char* const bits[] = {"fluid_list_bits", "wall_list_bits", "wall_to_fluid_bits"};
+  for (std::size_t k = 0; k < s.list_bits.size(); ++k) v.values(bits[k], s.list_bits[k]);
+  v.as_many("departed", s.departed);
   v.as_many("removed", s.ordering.removed);
   visit_solves(v, s.solver, s.report);
   v.end();
@@ -272,8 +276,10 @@ SavedState Simulation::save() const {
   State& s = *state_;
   SavedState result;
   Saver saver(result);
+  s.remember_lists();
   visit_clock(saver, s);
   visit_parts(saver, s);
+  s.list_bits = {};
   return result;
 }
 

@@ -46,8 +46,9 @@ struct Simulation::State {
   ListAge list_age;
   WallForces wall_forces;
   SurfaceTension surface_tension;
-  Buffer<Quad> list_places, wall_list_places;  // of the fluid and of moving walls when the lists were built
-  double list_time = 0;                        // [s], of those places
+  Buffer<Quad> list_places;  // of the fluid when all lists were built
+  double list_time = 0;      // [s], of those places
+  double lists_worn = 0;     // above 0: they do not hold and are to be built anew
   Buffer<Real> scratch;
   ViscousStep::Step solve_step{};  // of the solve under way
   std::optional<StepRecord> last;  // of the last step, when it tells how far the particles have moved
@@ -94,11 +95,20 @@ struct Simulation::State {
   double fed_mass() const;
   void tell_openings(Totals&) const;
   void tell_passed(Totals&) const;
+  std::array<NeighbourList*, 3> lists();
+  std::array<ListedParticles, 3> listed() const;  // what each of them is made of
   void build_lists();
+  ListAge::Particles fluid_for_age() const;
+  ListAge::Particles walls_for_age() const;
+  void renew_lists(const ListGate&);
+  void follow_moving_walls();
+  std::array<std::vector<std::uint8_t>, 3> list_bits;  // of each list, while a state is saved or restored
+  NeighbourList::Doubtful doubtful(const ListedParticles&) const;
+  void remember_lists();
   void restore_walls();
   void rebuild_lists_as_saved();
   bool exact_yield() const { return setup.numerics.yield == YieldModel::exact; }
-  bool lists_hold();
+  bool lists_hold() const;
   PairContext pairs() const;
   double kick();
   void choose_time_step();

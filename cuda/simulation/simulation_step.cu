@@ -26,6 +26,9 @@ void Simulation::step() {
     s.last = s.solve_and_move();
     s.taken += s.last->taken, s.given += s.last->given;
     s.displacement = std::sqrt(s.last->displacement_squared);
+    s.lists_worn = s.last->worn;
+    s.rectangles.follow(s.context, s.fluid, std::sqrt(s.last->speed_squared) * s.dt, s.reach.fluid_skin,
+                        s.diagnostics);
     s.capillary_work += s.solve_step.dt * s.last->capillary_power;
     if (s.last->compression > s.largest_compression.value)
       s.largest_compression = {s.last->compression, s.time};
@@ -33,6 +36,7 @@ void Simulation::step() {
   }
   s.time = s.time_after_step();
   s.last_dt = s.dt;
+  s.follow_moving_walls();
   ++s.steps;
   const bool too_dense = s.last && s.last->compression > s.setup.limits.max_compression;
   if (too_dense || s.steps % s.setup.limits.interval == 0) s.look();
@@ -61,11 +65,10 @@ StepRecord Simulation::State::solve_and_move() {
 void Simulation::State::reserve_step() {
   constexpr int most_terms = 5;
   const CellGrid& grid = ordering.fluid_sources(fluid).grid;
-  reserve_reductions(context, larger(fluid.count, grid.cells()), most_terms);
+  reserve_reductions(context, larger(larger(fluid.count, wall.count), grid.cells()), most_terms);
   surface_tension.reserve(fluid.count);
   scratch.resize(fluid.count);
   viscous.reserve(fluid.count, fluid_list.capacity(), row_cells());
-  list_age.reserve(grid);
   if (setup.thermal.viscous_heating) heat.reserve(fluid.count);
 }
 
@@ -92,11 +95,14 @@ void Simulation::State::launch_move() {
   StepRecord* record = viscous.record();
   surface_tension.launch_power(fluid, viscous.velocity(), record);
   viscous.launch_energy(fluid);
-  Section timer(context, "advance");
-  advance_particles(context, fluid, {viscous.velocity(), dt, list_places.span(), fluids.span()}, record);
-  if (!walls.any())
-    list_age.launch_approach(ordering.fluid_sources(fluid), list_places.span(),
-                             ordering.wall_sources(wall).cell_start, reach, record);
+  {
+    Section timer(context, "advance");
+    advance_particles(context, fluid, {viscous.velocity(), dt, list_places.span(), fluids.span()}, record);
+  }
+  Section timer(context, "neighbours");
+  if (walls.any()) return;
+  list_age.launch_look(fluid_for_age(), walls_for_age(), reach, record);
+  renew_lists(list_age.gate(reach, record));
 }
 
 bool Simulation::State::knows_wall_forces() const {

@@ -110,9 +110,9 @@ struct MoveRow {
 void ExactYield::follow(const Lists& lists, Index ids) {
   constexpr Offset margin_percent = 1;
   const Offset n = lists.fluid_id.size();
-  spare_own_.resize(lists.fluid.capacity(), margin_percent);
-  spare_other_.resize(lists.fluid.capacity(), margin_percent);
-  spare_wall_.resize(lists.wall.capacity(), margin_percent);
+  spare_own_.resize(lists.fluid.filled(), margin_percent);
+  spare_other_.resize(lists.fluid.filled(), margin_percent);
+  spare_wall_.resize(lists.wall.filled(), margin_percent);
   spare_held_.resize(n), spare_relative_.resize(n);
   launch(context_, "carry yield stresses", static_cast<Index>(n),
          Carry{lists.fluid.view(), lists.wall.view(), fluid_layout_.view(), wall_layout_.view(),
@@ -148,8 +148,8 @@ void ExactYield::put_in_order() {
 
 void ExactYield::take_restored(const Lists& lists, Index ids) {
   const Offset n = lists.fluid_id.size();
-  const bool fits = spare_own_.size() == lists.fluid.capacity() && spare_other_.size() == spare_own_.size() &&
-                    spare_wall_.size() == lists.wall.capacity() && held_.size() == n && relative_.size() == n;
+  const bool fits = spare_own_.size() == lists.fluid.filled() && spare_other_.size() == spare_own_.size() &&
+                    spare_wall_.size() == lists.wall.filled() && held_.size() == n && relative_.size() == n;
   if (!fits) throw Error("checkpoint: its yield stresses do not belong to this case");
   remember(lists, ids);
   own_.copy_from(spare_own_), other_.copy_from(spare_other_), wall_.copy_from(spare_wall_);
@@ -177,7 +177,7 @@ void ExactYield::record(const NeighbourList& list, Span<const Index> id, Layout&
   constexpr Offset margin_percent = 1;
   const ListView view = list.view();
   layout.slice.resize(view.slice.size), layout.length.resize(view.length.size);
-  layout.id.resize(list.capacity(), margin_percent);
+  layout.id.resize(list.filled(), margin_percent);
   launch(context_, "record slices", static_cast<Index>(view.slice.size),
          CopySlice{view.slice, layout.slice.span()});
   launch(context_, "record pairs", static_cast<Index>(view.length.size),

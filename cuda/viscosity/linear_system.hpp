@@ -5,6 +5,8 @@
 // weight is stored; d_ij comes from places, which a processor's cache has at hand.
 #pragma once
 
+#include <type_traits>
+
 #include "backend/buffer.hpp"
 #include "fluid/lane_math.hpp"
 #include "neighbours/cells.hpp"
@@ -32,10 +34,11 @@ struct LinearSystem {
   PeriodicBox box;
   PairCoupling coupling = PairCoupling::radial;
 
-  // Calls use(space) with the box, or with an open one: what `use` calls is compiled, and inlined, for each.
+  // Calls use(space, coupling) with the box, or with an open one, and the coupling as a constant: what `use`
+  // calls is compiled, and inlined, for each.
   template <class Use>
-  HOST_DEVICE void in_box(Use use) const {
-    box.any() ? use(box) : use(OpenBox{});
+  HOST_DEVICE void as_one_of(Use use) const {
+    box.any() ? with_coupling(box, use) : with_coupling(OpenBox{}, use);
   }
 
   // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
@@ -48,6 +51,7 @@ struct LinearSystem {
       const Offset at = first + k * ListView::stride();
       const Lanes w = load_lanes(&weight[at]);
       const Index* j = &links.entry[at];
+      foresee(&weight[at]), foresee(j);
       visit(j, w, space.separation(centre, xyz(gather(place, j))));
     }
   }
@@ -57,9 +61,9 @@ struct LinearSystem {
     const Vec3 here = xyz(u[i]);
     const LaneVec3 centre = in_lanes(here);
     LaneVec3 sum;
-    in_box([&](const auto& space) {
+    as_one_of([&](const auto& space, auto how) {
       for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
-        sum += couple(coupling, w, d, centre - xyz(gather(u, j)));
+        sum += couple(how, w, d, centre - xyz(gather(u, j)));
       });
     });
     return on_diagonal(i, here) + total(sum);
@@ -71,7 +75,7 @@ struct LinearSystem {
     if (!(chords.turn > 0)) return {};
     const LaneVec3 centre = in_lanes(xyz(chords.velocity[i]));
     LaneVec3 sum;
-    in_box([&](const auto& space) {
+    as_one_of([&](const auto& space, auto) {
       for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
         sum += (w * chords.added(centre - xyz(gather(chords.velocity, j)))) * d;
       });
@@ -87,17 +91,25 @@ struct LinearSystem {
     const LaneVec3 last = in_lanes(xyz(chords.velocity[i]));
     const LaneVec3 here_u = in_lanes(xyz(u[i])), here_v = in_lanes(xyz(v[i]));
     LaneVec3 sum_u, sum_v;
-    in_box([&](const auto& space) {
+    as_one_of([&](const auto& space, auto how) {
       for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
-        sum_u += couple(coupling, w, d, here_u - xyz(gather(u, j)));
+        sum_u += couple(how, w, d, here_u - xyz(gather(u, j)));
         if (chords.turn > 0) sum_u += (w * chords.added(last - xyz(gather(chords.velocity, j)))) * d;
-        sum_v += couple(coupling, w, d, here_v - xyz(gather(v, j)));
+        sum_v += couple(how, w, d, here_v - xyz(gather(v, j)));
       });
     });
     return {on_diagonal(i, xyz(u[i])) + total(sum_u), on_diagonal(i, xyz(v[i])) + total(sum_v)};
   }
 
  private:
+  template <PairCoupling coupling>
+  using Constant = std::integral_constant<PairCoupling, coupling>;
+
+  template <class Box, class Use>
+  HOST_DEVICE void with_coupling(const Box& space, Use use) const {
+    coupling == PairCoupling::radial ? use(space, Constant<PairCoupling::radial>())
+                                     : use(space, Constant<PairCoupling::isotropic>());
+  }
   HOST_DEVICE Vec3 on_diagonal(Index i, Vec3 here) const { return diagonal[i].w * here + wall[i] * here; }
 };
 
@@ -113,10 +125,10 @@ struct RelaxationRow {
     const Real mass = system.diagonal[i].w;
     LaneVec3 sum;
     SymmetricMatrix3<Lanes> links;
-    system.in_box([&](const auto& space) {
+    system.as_one_of([&](const auto& space, auto how) {
       system.for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
-        sum += couple(system.coupling, w, d, centre - xyz(gather(u, j)));
-        add_coupling(system.coupling, w, d, links);
+        sum += couple(how, w, d, centre - xyz(gather(u, j)));
+        add_coupling(how, w, d, links);
       });
     });
     residual = xyz(system.right_hand_side[i]) - mass * here - block * here - total(sum);
@@ -125,8 +137,8 @@ struct RelaxationRow {
   }
 };
 
-// Rows in the order of cells, for solvers that need independent sets of rows or groups of neighbours: rows of
-// two cells that do not touch are not linked.
+// Rows in the order of cells, for solvers that need independent sets of rows or groups of neighbours: when
+// the cells are found rows of two cells that do not touch are not linked, later few are.
 struct RowCells {
   CellGrid grid;
   Span<const Index> cell_start;

@@ -35,6 +35,7 @@ struct PredictAndAssemble {
     for (Index k = 0; k < entries; k += lane_count) {
       const Offset at = first + k * ListView::stride();
       const Index* j = &c.fluid_list.entry[at];
+      foresee(j);
       const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.fluid.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);

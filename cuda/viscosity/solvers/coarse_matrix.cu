@@ -106,7 +106,8 @@ struct AssembleRows {
   HOST_DEVICE void add_row(Index a, Index i, RigidSum* total) const {
     const Vec3d here = to_double(xyz(system.place[i]));
     LinkSum sums[kept_slots] = {};  // to the following slots; the first: all that row i is held by
-    LinkSum inner = {};             // in a rigid aggregate these do nothing
+    LinkSum inner = {};             // in a rigid aggregate these do nothing; with aggregates that have
+                                    // drifted here from farther away they are left out
     LinkSum* sum = nullptr;
     Index last = -1;
     const Offset first = system.links.row(i);
@@ -117,7 +118,7 @@ struct AssembleRows {
       const Index j = system.links.entry[at], b = owner[j];
       if (b != last) {
         const int slot = aggregates.grid.slot(aggregates.steps[a], aggregates.steps[b]);
-        sum = slot == own_slot ? &inner : &sums[larger(0, slot - own_slot)];
+        sum = slot == own_slot || slot < 0 ? &inner : &sums[larger(0, slot - own_slot)];
         last = b;
       }
       Vec3d d = here - to_double(xyz(system.place[j]));

@@ -7,6 +7,7 @@
 #include "core/cleared_arrays.hpp"
 #include "core/scene.hpp"
 #include "neighbours/list_age.hpp"
+#include "neighbours/neighbours.hpp"
 
 namespace slagflow {
 namespace {
@@ -74,10 +75,27 @@ class ListAgeOf : public testing::Test {
     walls_ = points(wall_.place);
   }
 
+  SourceView at(const SourceView& sources, const Buffer<Quad>& places) const {
+    return {sources.grid, sources.cell_start, places.span()};
+  }
+
+  // Whether lists that were all built at the start hold, when the particles have moved in one step.
   bool hold() {
-    return ListAge(context_).lists_hold({ordering_->fluid_sources(fluid_), start_.span(), largest_},
-                                        {ordering_->wall_sources(wall_), wall_start_.span(), walls_largest_},
-                                        reach);
+    const SourceView fluid = ordering_->fluid_sources(fluid_), walls = ordering_->wall_sources(wall_);
+    NeighbourList beside_fluid(context_, "walls"), beside_walls(context_, "fluid");
+    beside_fluid.build(at(walls, wall_start_), start_.span(), {}, static_cast<Real>(reach.support),
+                       Pairs::other);
+    beside_walls.build(at(fluid, start_), wall_start_.span(), {}, static_cast<Real>(reach.support),
+                       Pairs::other);
+    ListAge age(context_, Renewal::of_all);
+    age.begin(at(fluid, start_), at(walls, wall_start_));
+    Buffer<StepRecord> record(context_, "record");
+    record.upload({StepRecord{}});
+    age.look({fluid, largest_, beside_fluid.near_sources()},
+             {walls, walls_largest_, beside_walls.near_sources()}, reach, record.span().data);
+    std::vector<StepRecord> now;
+    record.download(now);
+    return now[0].worn <= 0 && judge(largest_, walls_largest_, reach) != Verdict::broken;
   }
 
   // Pairs within the support now that were too far apart at the start to be listed; to within rounding.

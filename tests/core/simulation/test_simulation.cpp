@@ -62,7 +62,7 @@ std::string error_of(const std::function<void()>& f) {
   return "no error";
 }
 
-constexpr int dam_steps = 60;
+constexpr int dam_steps = 90;
 
 TEST(Simulation, CountsAndMassesAddUpAtEveryStep) {
   const SimulationSetup setup = dam();
