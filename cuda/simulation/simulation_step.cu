@@ -115,9 +115,10 @@ void Simulation::State::add_wall_forces() {
 void Simulation::State::add_friction() {
   if (!setup.thermal.viscous_heating) return;
   Section timer(context, "heat");
-  heat.launch_friction(pairs(),
+  const PairContext c = viscous.as_solved(pairs());
+  heat.launch_friction(c,
                        {viscous.weights(), viscous.predicted(), viscous.velocity(), &viscous.record()->solve,
-                        static_cast<Real>(solve_step.dt)},
+                        static_cast<Real>(solve_step.dt), viscous.yield_work(c, solve_step)},
                        fluid);
 }
 

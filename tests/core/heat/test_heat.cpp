@@ -54,10 +54,18 @@ TEST(Heat, IsKeptWhileFluidMovesAndLeaves) {
   EXPECT_NEAR(t.heat.error(), 0, 1e-6 * (t.heat.surface + t.heat.walls.at(0)));
 }
 
+// Also with exact yield stresses, of which the cold fluid has more.
+SimulationSetup exact_hot_dam() {
+  SimulationSetup s = hot_dam();
+  s.numerics.yield = YieldModel::exact;
+  s.fluids[0].material.yield_stress = {{0, 2}, {0.5, 50}};
+  return s;
+}
+
 TEST(Heat, OfARestoredStateGoesOnToTheBit) {
-  for (const bool friction : {false, true}) {
-    SimulationSetup setup = hot_dam();
-    setup.thermal.viscous_heating = friction;
+  for (const int what : {0, 1, 2}) {
+    SimulationSetup setup = what == 2 ? exact_hot_dam() : hot_dam();
+    setup.thermal.viscous_heating = what > 0;
     Simulation whole(setup), first(setup), second(setup);
     run(whole, 60), run(first, 30);
     second.restore(first.save());
@@ -117,9 +125,13 @@ TEST(Heat, OfOneTemperatureChangesNothing) {
 }
 
 // What viscosity takes from the motion warms the fluid: a block that is sheared in a box by itself.
-TEST(Heat, OfFrictionIsTheEnergyThatIsLost) {
+class HeatOfFriction : public testing::TestWithParam<YieldModel> {};
+
+TEST_P(HeatOfFriction, IsTheEnergyThatIsLost) {
   SimulationSetup s = spinning_block(0);
   s.fluids = {{"oil", 900, {RheologyKind::newtonian, {Real(5)}}}};
+  if (GetParam() == YieldModel::exact) s.fluids[0].rheology = {RheologyKind::bingham, {Real(2), Real(10)}};
+  s.numerics.yield = GetParam();
   s.fluids[0].material.heat_capacity = {{300, 10}}, s.fluids[0].material.conductivity = {{300, 1}};
   s.thermal = {true, 300, 0, false, true, 400};
   for (std::size_t i = 0; i < s.particles.position.size(); ++i) {
@@ -135,6 +147,11 @@ TEST(Heat, OfFrictionIsTheEnergyThatIsLost) {
   EXPECT_NEAR(t.heat.error(), 0, 1e-6 * t.heat.viscous);
   EXPECT_GT(t.heat.hottest, 400);
 }
+
+INSTANTIATE_TEST_SUITE_P(Yields, HeatOfFriction, testing::Values(YieldModel::regularised, YieldModel::exact),
+                         [](const auto& test) {
+                           return test.param == YieldModel::exact ? "Exact" : "Regularised";
+                         });
 
 // Solid fluid moves as a body: a bar that is thrown turning keeps its shape.
 TEST(Heat, SolidFluidKeepsItsShape) {

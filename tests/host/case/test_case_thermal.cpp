@@ -152,8 +152,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"wall.0.surface_velocity=[1, 0, 0]", "wall.0.thermal", "surface_velocity"},
         Refusal{"thermal.surface_heat_transfer=-1", "thermal.surface_heat_transfer", ">= 0"},
         Refusal{"numerics.viscous_step='explicit'", "numerics.viscous_step", "implicit"},
-        Refusal{"numerics.scheme='paper'", "numerics.theta", "backward Euler"},
-        Refusal{"numerics.yield='exact'", "numerics.yield", "regularised"}));
+        Refusal{"numerics.scheme='paper'", "numerics.theta", "backward Euler"}));
 
 TEST(CaseThermal, WithoutTheTableItsKeysAreRefused) {
   std::string cold = hot;
