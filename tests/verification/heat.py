@@ -35,7 +35,8 @@ def runs(quick):
                    {**PASTE, "numerics.yield": f'"{model}"'}) for model in ("regularised", "exact")),
              *(Run(f"heat_pool_{eta}", "heat_pool", f"pool after a dam break, {eta} Pa s", {"fluid.slag.dynamic_viscosity": eta})
                for eta in (0.1, 1)),
-             Run("heat_crust", "heat_crust", "melt over crust, 20 across"), Run("ring_on_roll", "ring_on_roll", "crust on a roll")]
+             Run("heat_crust", "heat_crust", "melt over crust, 20 across"), Run("ring_on_roll", "ring_on_roll", "crust on a roll"),
+             Run("ring_on_surface", "ring_on_roll", "crust on a roll, by surface_angular_velocity", SURFACE)]
     if quick:
         return static + flows
     return [*static, Run("heat_sphere", "heat_sphere", "sphere, radius 10"), *flows,
@@ -68,6 +69,10 @@ def channel(ratio, push):
 # From 0 Pa on the hot wall to 100 Pa on the cold one.
 PASTE = {"fluid.oil.rheology": '"bingham"', "fluid.oil.solid_fraction": [[1300, 1], [1700, 0]],
          "fluid.oil.yield_stress": [[0.25, 0], [0.75, 100], [0.99, 148]], "body_force.acceleration": [40, 0, 0]}
+
+
+SURFACE = {"wall": '[{name="roll", shapes=[{shape="cylinder", start=[0, -1, 0], end=[0, 1, 0], radius=0.02}], '
+                   'surface_angular_velocity=[0, 1.5, 0]}]'}
 
 
 def friction(nahme):
@@ -204,8 +209,8 @@ def area_rows(result):
     flat = result.case["resolution"]["dimensions"] == 2
     area, z, face = areas(result), heights(result), 0.012 if flat else 0.012**2
     found = []
-    for region in result.case["region"]:
-        low, high = (region["shapes"][0][end][2] for end in ("min", "max"))
+    for sheet in result.case["region"][0]["shapes"]:
+        low, high = (sheet[end][2] for end in ("min", "max"))
         inside = (z > low) & (z < high)
         found.append(relative_row(result.resolution, f"surface, {round((high - low) / result.spacing)} across [m²]",
                                   float(np.sum(area[inside])), 2 * face, 0.05))

@@ -124,6 +124,24 @@ TEST(Heat, OfOneTemperatureChangesNothing) {
               1e-9 * a.totals().heat.start);
 }
 
+// To the bit where the rheology is Newtonian and exp(ln eta) is eta.
+TEST(Heat, OfOneTemperatureKeepsTheBitsOfARunWithout) {
+  SimulationSetup plain = dam(), warm = hot_dam();
+  for (SimulationSetup* s : {&plain, &warm})
+    for (FluidSetup& f : s->fluids) f.rheology = {RheologyKind::newtonian, {Real(1)}};
+  warm.thermal = {true, 300, 0, false, false, 1700};
+  warm.bodies[0].thermal = {};
+  for (double& t : warm.particles.temperature) t = 1700;
+  for (FluidSetup& f : warm.fluids) f.material.liquid = {}, f.material.suspended = false;
+  Simulation a(warm), b(plain);
+  run(a, 100), run(b, 100);
+  FluidSnapshot sa, sb;
+  a.read(sa), b.read(sb);
+  ASSERT_EQ(sa.id, sb.id);
+  EXPECT_EQ(sa.pressure, sb.pressure);
+  for (std::size_t i = 0; i < sa.id.size(); ++i) EXPECT_TRUE(sa.position[i] == sb.position[i]) << i;
+}
+
 // What viscosity takes from the motion warms the fluid: a block that is sheared in a box by itself.
 class HeatOfFriction : public testing::TestWithParam<YieldModel> {};
 
