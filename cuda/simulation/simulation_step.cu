@@ -9,6 +9,7 @@ namespace slagflow {
 
 void Simulation::step() {
   State& s = *state_;
+  if (s.flow_is_over()) return s.cool();
   s.place_walls();
   if (!s.lists_hold()) {
     s.rebuild();
@@ -140,7 +141,7 @@ void Simulation::State::choose_time_step() {
     if (diffusivity > 0)
       dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
   }
-  const double left = setup.end_time - time;
+  const double left = flow_end() - time;
   if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
 }
 
@@ -149,8 +150,6 @@ void Simulation::State::choose_time_step() {
 double Simulation::State::velocity_step() const { return 0.5 * (last_dt + dt); }
 
 // A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
-double Simulation::State::time_after_step() const {
-  return dt == setup.end_time - time ? setup.end_time : time + dt;
-}
+double Simulation::State::time_after_step() const { return dt == flow_end() - time ? flow_end() : time + dt; }
 
 }  // namespace slagflow

@@ -2,6 +2,7 @@
 #include "host/case/keys_thermal.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "host/case/case_rules.hpp"
 #include "host/case/suspension.hpp"
@@ -215,6 +216,12 @@ void describe_thermal(CaseVisitor& v, Case& c) {
     v.flag(key("radiation", "of free surfaces of fluids with an emissivity"), t.radiation);
     v.flag(key("viscous_heating", "(H8); off: slag warms by it by less than a kelvin an hour"),
            t.viscous_heating);
+    v.number(key("flow_until",
+                 "from then on nothing moves, no wall and no inlet either, and steps are as long as "
+                 "conduction allows: for "
+                 "minutes and hours of cooling after seconds of flow")
+                 .or_word("end_time", std::numeric_limits<double>::infinity()),
+             t.flow_until, at_least(0, "s"));
   });
 }
 

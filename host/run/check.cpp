@@ -144,7 +144,10 @@ TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
 void add_time_step(CaseCheck& check, const BuiltCase& built) {
   const TimeStep step = time_step(built.setup, built.setup.numerics.sound_speed);
   check.time_step = step.length, check.time_step_reason = step.reason;
-  check.steps = std::ceil(built.resolved.output.last_time() / check.time_step);
+  const double last = built.resolved.output.last_time(),
+               flows = std::min(last, built.setup.thermal.flow_until);
+  check.steps =
+      std::ceil(flows / check.time_step) + std::ceil((last - flows) / conduction_time_step(built.setup));
 }
 
 // What each speed asks for and costs.

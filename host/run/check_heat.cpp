@@ -121,7 +121,7 @@ HeatCheck check_heat(const BuiltCase& built, double speed, double depth,
   HeatCheck check;
   check.on = s.thermal.on;
   if (!check.on) return check;
-  check.time_step = conduction_time_step(s);
+  check.time_step = conduction_time_step(s), check.flow_until = s.thermal.flow_until;
   for (const FluidSetup& f : s.fluids) {
     check.fluids.push_back(numbers_of(s, f, speed, depth));
     warn_of(s, check.fluids.back(), check);
@@ -133,6 +133,9 @@ HeatCheck check_heat(const BuiltCase& built, double speed, double depth,
 std::string to_text(const HeatCheck& check) {
   if (!check.on) return "";
   std::string text = format("heat             conduction is stable up to steps of %.3g s\n", check.time_step);
+  if (std::isfinite(check.flow_until))
+    text += format("                 such steps are taken from %.6g s on, when nothing moves any more\n",
+                   check.flow_until);
   for (const FluidHeat& f : check.fluids) {
     text += format("heat of %-8s alpha %.3g m^2/s, Biot of half a spacing %s, Stefan %s, Nahme %s\n",
                    f.name.c_str(), f.diffusivity, number(f.half_cell_biot).c_str(), number(f.stefan).c_str(),

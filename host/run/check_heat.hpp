@@ -31,7 +31,8 @@ struct ThickWallHeat {
 
 struct HeatCheck {
   bool on = false;
-  double time_step = 0;  // [s] (H11)
+  double time_step = 0;   // [s] (H11)
+  double flow_until = 0;  // [s]; infinite: all the time
   std::vector<FluidHeat> fluids;
   std::vector<WallContactHeat> contacts;
   std::vector<ThickWallHeat> thick_walls;

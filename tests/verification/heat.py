@@ -19,6 +19,7 @@ def runs(quick):
     static = [Run("heat_slab", "heat_slab", "slab, 20 across"),
               Run("heat_slab_jitter", "heat_slab", "slab, 20 across, jitter", {"region.0.jitter": 0.25}),
               *(Run(f"heat_slab_{biot}", "heat_slab", f"slab, contact, Biot {biot}", contact(biot)) for biot in (1, 5, 50)),
+              Run("heat_slab_alone", "heat_slab", "slab, nothing moves", {"thermal.flow_until": 0, "numerics.sound_speed": 1}),
               Run("heat_steel", "heat_steel", "steel, 1 mm"),
               Run("heat_flux", "heat_flux", "wall with a flux, 20 deep"),
               *(Run(f"heat_freezing_{width}", "heat_freezing", f"freezing over {width} K, 1 mm", freezing_over(width))
@@ -41,7 +42,8 @@ def runs(quick):
         return static + flows
     return [*static, Run("heat_sphere", "heat_sphere", "sphere, radius 10"), *flows,
             *(Run(f"heat_couette_{nahme}", "heat_couette", f"friction, Nahme {nahme}, 20 across", friction(nahme))
-              for nahme in (1, 8, 40)), Run("heat_layer", "heat_layer", "layer on steel, 1 mm")]
+              for nahme in (1, 8, 40)), Run("heat_layer", "heat_layer", "layer on steel, 1 mm"),
+            Run("heat_layer_alone", "heat_layer", "layer on steel, nothing moves", {"thermal.flow_until": 0})]
 
 
 RADIATION = {"resolution.spacing": 5e-4, "thermal.surface_heat_transfer": 10, "fluid.slag.emissivity": 0.9,

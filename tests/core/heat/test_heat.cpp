@@ -84,6 +84,48 @@ TEST(Heat, OfARestoredStateGoesOnToTheBit) {
   }
 }
 
+// From flow_until on, in few steps, while places stay and nothing is lost.
+SimulationSetup dam_that_stops(double end) {
+  SimulationSetup s = hot_dam();
+  s.thermal.flow_until = 0.02, s.end_time = end;
+  return s;
+}
+
+TEST(Heat, GoesOnAloneOnceTheFlowIsOver) {
+  Simulation simulation(dam_that_stops(1000));
+  while (simulation.time() < 0.02) simulation.step();
+  ASSERT_EQ(simulation.time(), 0.02);
+  FluidSnapshot before, after;
+  simulation.read(before);
+  const auto flow_steps = simulation.steps();
+  while (simulation.time() < 1000) simulation.step();
+  EXPECT_EQ(simulation.time(), 1000);
+  EXPECT_LT(simulation.steps() - flow_steps, 300);
+  simulation.read(after);
+  EXPECT_EQ(after.time, 1000);
+  ASSERT_EQ(before.id, after.id);
+  for (std::size_t i = 0; i < before.id.size(); ++i)
+    EXPECT_TRUE(before.position[i] == after.position[i]) << i;
+  const Totals t = simulation.totals();
+  EXPECT_EQ(t.kinetic_energy, 0);
+  EXPECT_LT(t.heat.hottest, 1500);
+  EXPECT_NEAR(t.heat.error(), 0, 1e-6 * (t.heat.surface + t.heat.walls.at(0)));
+}
+
+TEST(Heat, AloneOfARestoredStateGoesOnToTheBit) {
+  const SimulationSetup setup = dam_that_stops(100);
+  Simulation whole(setup), first(setup), second(setup);
+  while (first.time() < 30) first.step(), whole.step();
+  second.restore(first.save());
+  EXPECT_EQ(second.time(), first.time());
+  EXPECT_EQ(second.time_step(), first.time_step());
+  while (whole.time() < 100) whole.step(), second.step();
+  FluidSnapshot a, b;
+  whole.read(a), second.read(b);
+  expect_same(a, b);
+  EXPECT_EQ(whole.totals().heat.surface, second.totals().heat.surface);
+}
+
 TEST(Heat, TellsWhatIsSolid) {
   SimulationSetup setup = hot_dam();
   setup.solids = {{{{-1, -1, -1}, {1, 1, 1}}, 1.0}};

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "backend/error.hpp"
 #include "heat/material_table.hpp"
 #include "host/geometry/setup_builder.hpp"
@@ -151,6 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"wall.0.contact_heat_transfer=0", "wall.0.contact_heat_transfer", "\"perfect\""},
         Refusal{"wall.0.surface_velocity=[1, 0, 0]", "wall.0.thermal", "surface_velocity"},
         Refusal{"thermal.surface_heat_transfer=-1", "thermal.surface_heat_transfer", ">= 0"},
+        Refusal{"thermal.flow_until=-1", "thermal.flow_until", "or \"end_time\""},
         Refusal{"numerics.viscous_step='explicit'", "numerics.viscous_step", "implicit"},
         Refusal{"numerics.scheme='paper'", "numerics.theta", "backward Euler"}));
 
@@ -199,6 +202,19 @@ TEST(CaseThermal, CheckTellsWhatIsNotResolved) {
   EXPECT_THAT(check.warnings, testing::Contains(HasSubstr("heat to walls is right within 5 % only from")));
   EXPECT_THAT(check.warnings, testing::Contains(HasSubstr("the surface's temperature is not resolved")));
   EXPECT_THAT(to_text(check), HasSubstr("conduction is stable up to steps of"));
+}
+
+TEST(CaseThermal, CheckCountsTheStepsOfHeatAlone) {
+  const auto check = [](const std::string& until) {
+    return check_case(
+        build_setup(parse_case(hot, "h.toml", {"output.end_time=3600", "thermal.flow_until=" + until})));
+  };
+  const CaseCheck alone = check("0"), both = check("1");
+  EXPECT_EQ(alone.steps, std::ceil(3600 / alone.heat.time_step));
+  EXPECT_EQ(both.steps, std::ceil(1 / both.time_step) + std::ceil(3599 / both.heat.time_step));
+  EXPECT_THAT(to_text(both), HasSubstr("such steps are taken from 1 s on, when nothing moves any more"));
+  const Case c = parse_case(hot, "h.toml", {"thermal.flow_until=7"});
+  EXPECT_EQ(parse_case(to_toml(c), "again.toml").thermal.flow_until, 7);
 }
 
 // 40 mm of steel: (20 mm)^2 over 40/(7850 550) m^2/s.
