@@ -245,6 +245,14 @@ struct Update {
     return sums;
   }
 
+  // What a strain rate counts as [m]: a of it as a stress. With heat a crust creeps for ever, at rates that
+  // are nothing as velocities over a spacing, while the stresses of a plug at its side would take thousands
+  // of iterations to yield.
+  HOST_DEVICE Real velocity_over_rate(Index i) const {
+    const Real as_stress = scale * augmentation[i];
+    return loop.c.fluid.melt.size > 0 ? smaller(as_stress, loop.c.flow.spacing) : as_stress;
+  }
+
   HOST_DEVICE void operator()(Index i) const {
     const RowSums<Real> row = sum_of(fluid_row(i), wall_row(i));
     if (augmentation[i] == 0) {  // a fluid without a yield stress has nothing to agree upon
@@ -254,7 +262,7 @@ struct Update {
     const Real f = held_share(row.pp, yield.stress(i));
     const Real more = sheared(i, f) - sheared(i, held[i]);
     new_held[i] = f;
-    const double unit = square(static_cast<double>(scale * augmentation[i]));
+    const double unit = square(static_cast<double>(velocity_over_rate(i)));
     gap[i] = unit * larger(0.0, static_cast<double>(row.dd - 2 * more * row.dp + square(more) * row.pp));
     shear[i] = unit * static_cast<double>(row.gg);
     rounding[i] = unit * static_cast<double>(row.size + row.pp / square(augmentation[i]));
