@@ -45,6 +45,8 @@ struct Particle {
   double contact = -1e30;  // the least pressure towards walls
   double hollow = 0;       // void that must close before the density rises [kg/m^3]
   int fluid = 0;
+  double key = 0;  // with heat: K(T) of its rheology; 0: none
+  bool solid = false;
 };
 
 struct Wall {

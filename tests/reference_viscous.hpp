@@ -69,7 +69,13 @@ struct ViscousOperator {
 inline double pair_weight(const World& w, double eta, double volumes, Vec d) {
   return w.correction * 2 * (w.dimensions + 2) * eta * volumes * viscous_weight(w, length(d));
 }
+// With heat that of the part without a yield stress.
 inline double mean_viscosity(const Particle& p, const Particle& o) {
+  if (p.fluid == o.fluid && p.key > 0) {
+    const bool rim = p.solid != o.solid;
+    const double a = rim ? p.viscosity : p.key, b = rim ? o.viscosity : o.key;
+    return (p.viscosity + o.viscosity) / 2 * 4 * a * b / ((a + b) * (a + b));
+  }
   return p.fluid == o.fluid ? (p.viscosity + o.viscosity) / 2 : 2 / (1 / p.viscosity + 1 / o.viscosity);
 }
 

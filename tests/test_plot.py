@@ -157,6 +157,17 @@ class Plot(unittest.TestCase):
         yellow = np.all(np.abs(picture - (0.99, 0.91, 0.14)) < 0.1, axis=-1)  # viridis' upper end: the fastest
         self.assertGreater(yellow.sum(), 100)
 
+    def test_the_particles_have_the_colour_asked_for(self):
+        self.make_run([0], [5])
+        self.assertEqual(self.plot(self.folder, "--no-surface", "--colour", "speed").returncode, 0)
+        by_speed = matplotlib.image.imread(self.folder / "pictures/flow.png")
+        done = self.plot(self.folder, "--no-surface", "--colour", "depth")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse(np.array_equal(matplotlib.image.imread(self.folder / "pictures/flow.png"), by_speed))
+        done = self.plot(self.folder, "--no-surface", "--colour", "temperature")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the run has not written what 'temperature' needs", done.stderr)
+
     def test_each_time_asked_for_adds_a_row(self):
         self.make_run([0, 0.1, 0.2, 0.3], [5, 5, 5, 5])
         self.assertEqual(self.plot(self.folder, "--times", "0.1").returncode, 0)

@@ -135,6 +135,22 @@ class HeatForms(unittest.TestCase):
     def test_neumann(self):
         problem = heat_forms.Neumann((1.6, 1050, 2800), (0.8, 1300, 2800), (373.15, 1623.15, 1723.15), 2.1e5)
         self.assertAlmostEqual(problem.root, 0.96803218, places=6)
+        # Latent heat over less and less is that at one temperature.
+        material = heat_forms.Material([(1623.1, 1050), (1623.2, 1300)], [(1623.1, 1.6), (1623.2, 0.8)],
+                                       [(1623.15 - 0.5, 1), (1623.15, 0)], 2.1e5)
+        spread = heat_forms.Freezing(material, 2800, 373.15, 1723.15)
+        self.assertAlmostEqual(spread.heat(100) / problem.heat(100), 1, places=4)
+        self.assertAlmostEqual(spread.front(1622.9, 100) / problem.front(100), 1, places=3)
+
+    def test_a_flux(self):
+        # Carslaw and Jaeger 1959, 2.9: at the surface 2 sqrt(alpha t/pi); below, 2 sqrt(alpha t) ierfc(x/2 sqrt(alpha t)).
+        self.assertAlmostEqual(float(heat_forms.half_space_with_flux(0.0, 4, 1)), 4 / np.sqrt(np.pi), places=12)
+        self.assertAlmostEqual(float(heat_forms.half_space_with_flux(2.0, 1, 1)), 2 * 0.0502545, places=6)
+
+    def test_a_channel_with_yield(self):
+        y = np.linspace(0, 0.02, 4001)
+        u = heat_forms.poiseuille_with_yield(y, np.full_like(y, 2.0), np.full_like(y, 10.0), 4000)
+        self.assertAlmostEqual(float(u[2000]) / (4000 / (2 * 2.0) * (0.01 - 10 / 4000) ** 2), 1, places=5)
 
     def test_friction(self):
         stress, warming = heat_forms.couette_with_friction(8)

@@ -1,6 +1,7 @@
 // What of a simulation concerns heat, in plain host data.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "fluid/math.hpp"
@@ -15,6 +16,7 @@ struct ThermalSetup {
   double surface_heat_transfer = 0;  // [W/(m^2 K)]
   bool radiation = false;
   bool viscous_heating = false;
+  double flow_until = std::numeric_limits<double>::infinity();  // [s] from which on nothing moves
   double reference_temperature = 0;  // [K] hottest fluid of the start: what is stored is relative to it
 };
 

@@ -51,11 +51,15 @@ struct AtSite {
     double covered = 0, conducts = 0, carries = 0;
     each_pair(s, [&](const WallPair& pair, Index i) {
       covered += static_cast<double>(pair.area);
+      if (body.kind == WallHeat::flux)
+        carries +=
+            static_cast<double>(pair.area * (step.heat[i].x + body.flux * pair.distance / step.heat[i].z));
       if (body.kind != WallHeat::semi_infinite) return;
       const auto part = static_cast<double>(pair.area * conductance(pair, i, wall, body));
       conducts += part, carries += part * static_cast<double>(step.heat[i].x - body.temperature);
     });
     if (!(covered > 0 && area > 0)) return;
+    if (body.kind == WallHeat::flux) wall = static_cast<Real>(carries / covered);
     if (body.kind == WallHeat::semi_infinite && conducts > 0)
       wall = body.temperature +
              static_cast<Real>(thick_wall(body, conducts / static_cast<double>(area), carries / conducts,

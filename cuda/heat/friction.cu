@@ -20,7 +20,8 @@ struct FrictionOfStep {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i])), u = in_lanes(xyz(step.solved[i])),
                    predicted = in_lanes(xyz(step.predicted[i]));
     const double power = static_cast<double>(total(of_fluid(i, x, u, predicted))) +
-                         static_cast<double>(total(of_walls(i, x, u, predicted)));
+                         static_cast<double>(total(of_walls(i, x, u, predicted))) +
+                         (step.by_yield.size > 0 ? step.by_yield[i] : 0.0);
     gained[i] = power;
     enthalpy[i] += power / static_cast<double>(c.fluids[c.fluid.fluid[i]].mass);
   }

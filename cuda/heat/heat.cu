@@ -68,7 +68,7 @@ struct SetEntered {
 
 // Evenly spread: on a circle in the x-z plane, or along a spiral over the sphere (Fibonacci's).
 std::vector<Quad> directions(int dimensions) {
-  constexpr int count = 128;
+  const int count = dimensions == 2 ? 132 : 128;  // of a line of particles just a sixth is open
   constexpr double pi = 3.14159265358979324;
   std::vector<Quad> all;
   for (int k = 0; k < count; ++k) {
@@ -184,7 +184,9 @@ void Heat::upload_bodies(const SimulationSetup& s) {
   site_of_wall_.upload(sites.of_wall), first_member_.upload(sites.first), member_.upload(sites.member);
   site_body_.upload(sites.body), site_area_.upload({sites.area.begin(), sites.area.end()});
   std::vector<Real> temperature;
-  for (const std::uint8_t body : sites.body) temperature.push_back(bodies[body].temperature);
+  for (const std::uint8_t body : sites.body)
+    temperature.push_back(bodies[body].kind == WallHeat::flux ? std::numeric_limits<Real>::quiet_NaN()
+                                                              : bodies[body].temperature);
   site_temperature_.upload(temperature);
   site_share_.upload(std::vector<Real>(sites.body.size(), 1));
   site_taken_.upload(std::vector<double>(sites.body.size()));

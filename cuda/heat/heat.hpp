@@ -42,7 +42,8 @@ class Heat {
     Span<const Real> weight;
     Span<const Quad> predicted, solved;
     const SolveState* solve;
-    Real implicit_dt;  // [s]
+    Real implicit_dt;             // [s]
+    Span<const double> by_yield;  // [J] of each particle, of an exact yield stress besides; may be empty
   };
   // Memory for it, which what is recorded may not take.
   void reserve(Index count);

@@ -325,10 +325,10 @@ void Simulation::State::look() {
     for (const std::int64_t count : by_face) left += count;
   const WallWork work = wall_work();
   watch.look(fluid, fluids.span(),
-             {time, dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
+             {now(), dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
               last ? last->given : 0, steps, left, inlets.all_fed(), fed_mass()},
              diagnostics);
-  heat.require_possible(fluid, time, diagnostics);
+  heat.require_possible(fluid, now(), diagnostics);
 }
 
 // Names the first particle that is not a number: by its motion, or else by its density, which follows within
@@ -368,8 +368,8 @@ void Simulation::require_sound() {
   s.watch.seen = before;
 }
 
-double Simulation::time() const { return state_->time; }
-double Simulation::time_step() const { return state_->dt; }
+double Simulation::time() const { return state_->now(); }
+double Simulation::time_step() const { return state_->heat_time > 0 ? state_->heat_dt : state_->dt; }
 double Simulation::velocity_time_step() const { return state_->solve_step.dt; }
 std::int64_t Simulation::steps() const { return state_->steps; }
 PeakCompression Simulation::largest_compression() const { return state_->largest_compression; }

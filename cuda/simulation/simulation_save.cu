@@ -116,7 +116,8 @@ class Restorer {
 // When and how far: what the walls follow from.
 template <class Visitor, class State>
 void visit_clock(Visitor& v, State& s) {
-  v.number(s.time), v.number(s.dt), v.number(s.full_dt), v.number(s.last_dt), v.number(s.list_time);
+  v.number(s.time), v.number(s.dt), v.number(s.full_dt), v.number(s.last_dt), v.number(s.heat_time);
+  v.number(s.list_time), v.number(s.heat_dt);
   v.number(s.displacement), v.number(s.taken), v.number(s.given), v.number(s.capillary_work);
   v.number(s.steps), v.number(s.builds);
   v.number(s.largest_compression.value), v.number(s.largest_compression.time);
@@ -151,9 +152,10 @@ void visit_parts(Visitor& v, State& s) {
 template <class State>
 void require_possible_clock(const State& s) {
   bool possible = s.time >= 0 && s.dt > 0 && s.full_dt > 0 && s.last_dt >= 0 && s.list_time >= 0 &&
-                  s.list_time <= s.time && s.steps >= 0 && s.builds >= 0;
-  const double finite[] = {s.time,         s.dt,    s.full_dt, s.last_dt,
-                           s.displacement, s.taken, s.given,   s.capillary_work};
+                  s.heat_time >= 0 && s.heat_dt >= 0 && s.list_time <= s.time && s.steps >= 0 &&
+                  s.builds >= 0;
+  const double finite[] = {s.time,  s.dt,    s.full_dt,        s.last_dt,   s.displacement,
+                           s.taken, s.given, s.capillary_work, s.heat_time, s.heat_dt};
   for (const double v : finite) possible = possible && std::isfinite(v);
   if (!possible) Restorer::refuse_numbers();
 }
@@ -200,9 +202,10 @@ SavedState fluid_arrays(const SavedState& saved, Vec3d lower) {
     for (const SavedArray& array : saved)
       if (array.name == name) result.push_back(array);
   Restorer restorer(saved);
-  double time = 0, dt = 0, full_dt = 0, last_dt = 0;
+  double time = 0, dt = 0, full_dt = 0, last_dt = 0, heat_time = 0;
   restorer.number(time), restorer.number(dt), restorer.number(full_dt), restorer.number(last_dt);
-  std::vector<double> clock{time, last_dt, lower.x, lower.y, lower.z};
+  restorer.number(heat_time);
+  std::vector<double> clock{larger(time, heat_time), last_dt, lower.x, lower.y, lower.z};
   Saver(result).values(clock_name, clock);
   return result;
 }

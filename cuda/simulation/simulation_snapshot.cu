@@ -35,9 +35,9 @@ struct FlagYielded {
 struct StateTransfer::Data {
   SideCopy copy;
   std::vector<SideCopy::Part> parts;
-  std::vector<const void*> buffers;       // whose contents the parts are
-  const Simulation::State* of = nullptr;  // null: nothing is under way
-  double time = 0, list_time = 0;
+  std::vector<const void*> buffers;               // whose contents the parts are
+  const Simulation::State* of = nullptr;          // null: nothing is under way
+  double time = 0, flow_time = 0, list_time = 0;  // walls and inlets go by that of the flow
   Reading what{};
   std::size_t fluid = 0, walls = 0;     // particles
   std::vector<float> wall_temperature;  // [K] by id, where heat is on
@@ -138,10 +138,10 @@ void StateTransfer::Data::put(WallSnapshot& out) const {
   out.position.clear(), out.pressure.clear(), out.body.clear(), out.temperature.clear();
   for (std::size_t k = 0; k < by_id.size(); ++k) {
     const std::uint8_t body = w.body[k];
-    if (of->walls.removed(body, time)) continue;
+    if (of->walls.removed(body, flow_time)) continue;
     out.position.push_back(of->inlets.any() && of->inlets.is_column(k)
-                               ? of->inlets.position_at(k, time, list_time)
-                               : of->walls.position_at(w.position[k], body, time));
+                               ? of->inlets.position_at(k, flow_time, list_time)
+                               : of->walls.position_at(w.position[k], body, flow_time));
     out.pressure.push_back(by_id[k]), out.body.push_back(body);
     if (out.heat) out.temperature.push_back(wall_temperature[k]);
   }
@@ -158,7 +158,7 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
                      s.fluid.melt.span()});
   const Buffer<Real>& thickness = s.sheets.measure(s.pairs());
   StateTransfer::Data& data = *transfer.data_;
-  data.what = what, data.time = s.time, data.list_time = s.list_time;
+  data.what = what, data.time = s.now(), data.flow_time = s.time, data.list_time = s.list_time;
   data.fluid = static_cast<std::size_t>(n), data.walls = static_cast<std::size_t>(s.wall.count);
   data.parts.clear(), data.buffers.clear();
   data.add_shown(s.fluid), data.add(s.scratch), data.add(thickness), data.add(s.yielded);

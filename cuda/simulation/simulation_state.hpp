@@ -65,8 +65,10 @@ struct Simulation::State {
 
   double time = 0, dt = 0, full_dt = 0, displacement = 0, capillary_work = 0;
   double last_dt = 0;  // [s] that the last step took; 0 before the first
-  double taken = 0;    // [J] by viscous forces from the fluid: what they dissipate less the work of walls
-  double given = 0;    // [J] to the fluid by pairing and the pressure of walls
+  // Once the flow is over, what stands in place of `time` and `dt` as others see them.
+  double heat_time = 0, heat_dt = 0;
+  double taken = 0;  // [J] by viscous forces from the fluid: what they dissipate less the work of walls
+  double given = 0;  // [J] to the fluid by pairing and the pressure of walls
   std::int64_t steps = 0, builds = 0;
   std::uint64_t arrangement = 0;  // of the rows in the cells: another one for each build of the lists
   PeakCompression largest_compression;
@@ -111,6 +113,10 @@ struct Simulation::State {
   bool lists_hold() const;
   PairContext pairs() const;
   double kick();
+  double now() const { return larger(time, heat_time); }
+  bool flow_is_over() const;
+  double flow_end() const;
+  void cool();
   void choose_time_step();
   double time_after_step() const;
   double velocity_step() const;

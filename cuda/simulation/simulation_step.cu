@@ -9,6 +9,7 @@ namespace slagflow {
 
 void Simulation::step() {
   State& s = *state_;
+  if (s.flow_is_over()) return s.cool();
   s.place_walls();
   if (!s.lists_hold()) {
     s.rebuild();
@@ -121,9 +122,10 @@ void Simulation::State::add_wall_forces() {
 void Simulation::State::add_friction() {
   if (!setup.thermal.viscous_heating) return;
   Section timer(context, "heat");
-  heat.launch_friction(pairs(),
+  const PairContext c = viscous.as_solved(pairs());
+  heat.launch_friction(c,
                        {viscous.weights(), viscous.predicted(), viscous.velocity(), &viscous.record()->solve,
-                        static_cast<Real>(solve_step.dt)},
+                        static_cast<Real>(solve_step.dt), viscous.yield_work(c, solve_step)},
                        fluid);
 }
 
@@ -145,7 +147,7 @@ void Simulation::State::choose_time_step() {
     if (diffusivity > 0)
       dt = smaller(dt, setup.numerics.diffusion_number * square(setup.spacing) / diffusivity);
   }
-  const double left = setup.end_time - time;
+  const double left = flow_end() - time;
   if (left > 0 && left < 2 * dt) dt = left <= dt ? left : 0.5 * left;
 }
 
@@ -154,8 +156,6 @@ void Simulation::State::choose_time_step() {
 double Simulation::State::velocity_step() const { return 0.5 * (last_dt + dt); }
 
 // A step that takes all that was left ends at the end itself: the sum may miss it by its rounding.
-double Simulation::State::time_after_step() const {
-  return dt == setup.end_time - time ? setup.end_time : time + dt;
-}
+double Simulation::State::time_after_step() const { return dt == flow_end() - time ? flow_end() : time + dt; }
 
 }  // namespace slagflow

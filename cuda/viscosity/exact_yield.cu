@@ -3,8 +3,8 @@
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
 #include "fluid/lane_math.hpp"
-#include "fluid/yield_rheology.hpp"
 #include "viscosity/exact_yield.hpp"
+#include "viscosity/particle_yield.hpp"
 
 namespace slagflow {
 
@@ -80,36 +80,72 @@ struct PairLoop {
   }
 };
 
-// w of the result: the size of what was added up, for its rounding.
+// The forces -dt F of the stresses between pairs.
 template <class Box>
-struct AddForce {
+struct YieldForces {
   PairLoop<Box> loop;
   Span<const Real> own, other, wall, held;
-  Real dt;
-  Span<const Quad> base;
-  Span<Quad> result;
 
-  HOST_DEVICE void operator()(Index i) const {
+  // visit(j, d, F)
+  template <class Visit>
+  HOST_DEVICE void over_fluid(Index i, Visit visit) const {
     const Real volume = loop.c.fluid.place[i].w, share = 2 * held[i] - 1;
     const Lanes own_factor = volume * share, root_volume = std::sqrt(volume);
-    LaneVec3 sum;
-    Lanes squares = 0;
     loop.over_fluid(i, [&](Offset at, const Index* j, Lanes their, LaneVec3 d, Lanes g) {
       const Halves half = loop.halves(i, j);
       const Lanes other_factor = their * (Real(2) * gather(held, j) - Real(1));
       const Lanes stress = half.own * own_factor * (root(their) * load_lanes(&own[at])) +
                            half.other * other_factor * (root_volume * load_lanes(&other[at]));
-      const LaneVec3 force = (g * stress) * d;
-      sum += force, squares += dot(force, force);
+      visit(j, (g * stress) * d);
     });
+  }
+  // visit(velocity of the wall, F)
+  template <class Visit>
+  HOST_DEVICE void over_walls(Index i, Visit visit) const {
+    const Real volume = loop.c.fluid.place[i].w, share = 2 * held[i] - 1;
+    loop.over_walls(
+        i, [&](Offset at, Vec3 there, Vec3 d, Real g) { visit(there, (volume * g * share * wall[at]) * d); });
+  }
+};
+
+// w of the result: the size of what was added up, for its rounding.
+template <class Box>
+struct AddForce {
+  YieldForces<Box> forces;
+  Real dt;
+  Span<const Quad> base;
+  Span<Quad> result;
+
+  HOST_DEVICE void operator()(Index i) const {
+    LaneVec3 sum;
+    Lanes squares = 0;
+    forces.over_fluid(i, [&](const Index*, LaneVec3 force) { sum += force, squares += dot(force, force); });
     Vec3 walls;
     Real wall_squares = 0;
-    loop.over_walls(i, [&](Offset at, Vec3, Vec3 d, Real g) {
-      const Vec3 force = (volume * g * share * wall[at]) * d;
-      walls += force, wall_squares += dot(force, force);
-    });
+    forces.over_walls(i, [&](Vec3, Vec3 force) { walls += force, wall_squares += dot(force, force); });
     const Real size = dt * std::sqrt(total(squares) + wall_squares);
     result[i] = quad(xyz(base[i]) - dt * (total(sum) + walls), size);
+  }
+};
+
+// What these forces take of the motion: by pairs dt F.(u + u*)_ij/2, half to each, at walls whole.
+template <class Box>
+struct WorkOfYield {
+  YieldForces<Box> forces;
+  Real dt;
+  Span<const Quad> predicted, solved;
+  Span<double> result;  // [J]
+
+  HOST_DEVICE void operator()(Index i) const {
+    const Vec3 mean = Real(0.5) * (xyz(predicted[i]) + xyz(solved[i]));
+    Lanes sum = 0;
+    forces.over_fluid(i, [&](const Index* j, LaneVec3 force) {
+      const LaneVec3 there = Lanes(Real(0.5)) * (xyz(gather(predicted, j)) + xyz(gather(solved, j)));
+      sum += dot(force, in_lanes(mean) - there);
+    });
+    Real walls = 0;
+    forces.over_walls(i, [&](Vec3 there, Vec3 force) { walls += dot(force, mean - there); });
+    result[i] = static_cast<double>(dt) * static_cast<double>(Real(0.5) * total(sum) + walls);
   }
 };
 
@@ -144,6 +180,7 @@ HOST_DEVICE inline RowSums<Real> sum_of(const RowSums<Lanes>& a, const RowSums<R
 template <class Box>
 struct Update {
   PairLoop<Box> loop;
+  ParticleYield yield;
   Velocities velocity;
   Span<const Real> held, augmentation;
   Span<Real> own, other, wall, new_held;
@@ -208,16 +245,24 @@ struct Update {
     return sums;
   }
 
+  // What a strain rate counts as [m]: a of it as a stress. With heat a crust creeps for ever, at rates that
+  // are nothing as velocities over a spacing, while the stresses of a plug at its side would take thousands
+  // of iterations to yield.
+  HOST_DEVICE Real velocity_over_rate(Index i) const {
+    const Real as_stress = scale * augmentation[i];
+    return loop.c.fluid.melt.size > 0 ? smaller(as_stress, loop.c.flow.spacing) : as_stress;
+  }
+
   HOST_DEVICE void operator()(Index i) const {
     const RowSums<Real> row = sum_of(fluid_row(i), wall_row(i));
     if (augmentation[i] == 0) {  // a fluid without a yield stress has nothing to agree upon
       new_held[i] = 0, gap[i] = shear[i] = rounding[i] = stress[i] = 0;
       return;
     }
-    const Real f = held_share(row.pp, yield_stress(loop.c.fluids[loop.c.fluid.fluid[i]].rheology));
+    const Real f = held_share(row.pp, yield.stress(i));
     const Real more = sheared(i, f) - sheared(i, held[i]);
     new_held[i] = f;
-    const double unit = square(static_cast<double>(scale * augmentation[i]));
+    const double unit = square(static_cast<double>(velocity_over_rate(i)));
     gap[i] = unit * larger(0.0, static_cast<double>(row.dd - 2 * more * row.dp + square(more) * row.pp));
     shear[i] = unit * static_cast<double>(row.gg);
     rounding[i] = unit * static_cast<double>(row.size + row.pp / square(augmentation[i]));
@@ -227,8 +272,7 @@ struct Update {
 
 struct StressLength {
   ListView fluid_list, wall_list;
-  Span<const FluidConstants> fluids;
-  Span<const std::uint8_t> fluid;
+  ParticleYield yield;
   Span<const Real> own, wall, held, shear_rate;
   Span<Real> result;
   HOST_DEVICE void operator()(Index i) const {
@@ -237,7 +281,7 @@ struct StressLength {
       squares += square(own[fluid_list.row(i) + k * ListView::stride()]);
     for (Index k = 0; k < wall_list.length[i]; ++k)
       squares += square(wall[wall_list.row(i) + k * ListView::stride()]);
-    const Real viscous = viscous_part_of(fluids[fluid[i]].rheology, shear_rate[i]) * shear_rate[i];
+    const Real viscous = yield.viscous_part(i, shear_rate[i]) * shear_rate[i];
     result[i] = held[i] * std::sqrt(squares) + viscous;
   }
 };
@@ -279,15 +323,29 @@ ExactYield::ExactYield(Context& c)
 void ExactYield::add_force(const PairContext& c, Real dt, Span<const Quad> base, Span<Quad> force) {
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield forces", c.fluid.count,
-           AddForce<decltype(loop.box)>{loop, own_.span(), other_.span(), wall_.span(), held_.span(), dt,
-                                        base, force});
+           AddForce<decltype(loop.box)>{
+               {loop, own_.span(), other_.span(), wall_.span(), held_.span()}, dt, base, force});
   });
+}
+
+Span<const double> ExactYield::measure_work(const PairContext& c, Real dt, Span<const Quad> predicted,
+                                            Span<const Quad> solved) {
+  gap_.resize(c.fluid.count);
+  with_box(c, [&](const auto& loop) {
+    launch(context_, "yield work", c.fluid.count,
+           WorkOfYield<decltype(loop.box)>{{loop, own_.span(), other_.span(), wall_.span(), held_.span()},
+                                           dt,
+                                           predicted,
+                                           solved,
+                                           gap_.span()});
+  });
+  return gap_.span();
 }
 
 void ExactYield::measure_stress(const PairContext& c, Span<const Real> shear_rate, Span<Real> result) {
   launch(context_, "shear stress", c.fluid.count,
-         StressLength{c.fluid_list, c.wall_list, c.fluids, c.fluid.fluid, own_.span(), wall_.span(),
-                      held_.span(), shear_rate, result});
+         StressLength{c.fluid_list, c.wall_list, ParticleYield(c), own_.span(), wall_.span(), held_.span(),
+                      shear_rate, result});
 }
 
 ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> predicted,
@@ -299,6 +357,7 @@ ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> pre
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield stresses", n,
            Update<decltype(loop.box)>{loop,
+                                      ParticleYield(c),
                                       {predicted, increment},
                                       held_.span(),
                                       augmentations_.span(),

@@ -69,6 +69,10 @@ class ExactYield {
   };
   Misfit update(const PairContext&, Span<const Quad> predicted, Span<const Quad> increment, const Chords&);
 
+  // What the forces of add_force() take of the motion of each particle between u* and u [J]; until update().
+  Span<const double> measure_work(const PairContext&, Real dt, Span<const Quad> predicted,
+                                  Span<const Quad> solved);
+
   // |tau| [Pa] of each particle: f |p| and that of the viscous part at these shear rates.
   void measure_stress(const PairContext&, Span<const Real> shear_rate, Span<Real> result);
 

@@ -1,7 +1,7 @@
 // The augmentation of each particle, balanced against the flow.
 #include "backend/launch.hpp"
-#include "fluid/yield_rheology.hpp"
 #include "viscosity/exact_yield.hpp"
+#include "viscosity/particle_yield.hpp"
 
 namespace slagflow {
 
@@ -10,8 +10,7 @@ namespace {
 // The augmentation that suits a particle is tau / q, its stress over its sheared strain rate: then f is a
 // half. A plug takes the most, which in sheared fluid would hold back the velocities.
 struct Balance {
-  Span<const FluidConstants> fluids;
-  Span<const std::uint8_t> fluid;
+  ParticleYield yield;
   Span<const Real> held, last;
   Real last_unit;
   Augmentation given;
@@ -24,7 +23,7 @@ struct Balance {
     return larger(least, smaller(most, larger(kept / bound, smaller(kept * bound, wanted))));
   }
   HOST_DEVICE void operator()(Index i) const {
-    const bool yields = yield_stress(fluids[fluid[i]].rheology) > 0;
+    const bool yields = yield.stress(i) > 0;
     const Real own = given.fixed > 0 ? given.fixed : balanced(last[i], held[i]);
     relative[i] = yields ? own : Real(0);
     augmentation[i] = relative[i] * given.unit;
@@ -33,19 +32,18 @@ struct Balance {
 
 // The viscosity without the yield stress, plus the augmentation.
 struct Augment {
-  Span<const FluidConstants> fluids;
-  Span<const std::uint8_t> fluid;
+  ParticleYield yield;
   Span<const Real> shear_rate, augmentation;
   Span<const Quad> from;
   Span<Quad> state;
   HOST_DEVICE void operator()(Index i) const {
     const Quad s = from[i];
-    const Real viscous = viscous_part_of(fluids[fluid[i]].rheology, shear_rate[i]);
-    state[i] = {s.x, viscous + augmentation[i], s.z, s.w};
+    state[i] = {s.x, yield.viscous_part(i, shear_rate[i]) + augmentation[i], s.z, s.w};
   }
 };
 
-// p for other augmentations: the stress f p stays, and the sheared strain rate.
+// p for other augmentations: the stress f p stays, and the sheared strain rate. Where a yield stress has
+// gone, as where fluid melts, nothing stays.
 struct Rescale {
   ListView fluid_list, wall_list;
   Span<const Real> held, last, augmentation;
@@ -53,6 +51,7 @@ struct Rescale {
   Span<Real> own, other, wall, new_held;
 
   HOST_DEVICE Real factor(Index i) const {
+    if (!(augmentation[i] > 0)) return 0;
     const Real before = last[i] * last_unit;
     return before > 0 ? held[i] + (augmentation[i] / before) * (1 - held[i]) : Real(1);
   }
@@ -65,7 +64,7 @@ struct Rescale {
       own[at] *= mine, other[at] *= factor(fluid_list.entry[at]);
     }
     for (Index k = 0; k < wall_list.length[i]; ++k) wall[first_wall + k * ListView::stride()] *= mine;
-    new_held[i] = held[i] / mine;
+    new_held[i] = mine > 0 ? held[i] / mine : Real(0);
   }
 };
 
@@ -75,15 +74,15 @@ void ExactYield::begin(const PairContext& c, const FluidArrays& fluid, const Aug
   const Index n = c.fluid.count;
   spare_held_.resize(n), spare_relative_.resize(n), augmentations_.resize(n), state_.resize(n);
   launch(context_, "balance", n,
-         Balance{c.fluids, c.fluid.fluid, held_.span(), relative_.span(), unit_, given,
-                 spare_relative_.span(), augmentations_.span()});
+         Balance{ParticleYield(c), held_.span(), relative_.span(), unit_, given, spare_relative_.span(),
+                 augmentations_.span()});
   launch(context_, "rescale yield stresses", n,
          Rescale{c.fluid_list, c.wall_list, held_.span(), relative_.span(), augmentations_.span(), unit_,
                  own_.span(), other_.span(), wall_.span(), spare_held_.span()});
   held_.swap(spare_held_), relative_.swap(spare_relative_);
   unit_ = given.unit;
   launch(context_, "augmented viscosity", n,
-         Augment{c.fluids, c.fluid.fluid, fluid.shear_rate.span(), augmentations_.span(), c.fluid.state,
+         Augment{ParticleYield(c), fluid.shear_rate.span(), augmentations_.span(), c.fluid.state,
                  state_.span()});
 }
 

@@ -69,6 +69,9 @@ class ViscousStep {
   // The pairs with the directions and viscosities that the step took, and its stresses on walls besides.
   PairContext as_solved(const PairContext&) const;
   WallYield wall_yield() const;
+  // What an exact yield stress took of the motion of each particle [J]; empty without one. Of pairs
+  // as_solved().
+  Span<const double> yield_work(const PairContext&, const Step&);
 
  private:
   bool exact_yield_stress() const { return numerics_.yield == YieldModel::exact; }

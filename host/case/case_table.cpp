@@ -186,7 +186,9 @@ bool CaseTable::read(const char* key, double& target, const Range& range, Need n
   double number = 0;
   if (!number_of(*value, number)) return wrong_type(key, *value, range.text());
   if (!range.holds(number)) {
-    problem(key, "value " + show(*value) + " is out of range: allowed: " + range.text_for(number));
+    const std::string doubt = range.doubt.empty() ? ":" : "; " + range.doubt;
+    problem(key,
+            "value " + show(*value) + " is out of range" + doubt + " allowed: " + range.text_for(number));
     return false;
   }
   target = number;

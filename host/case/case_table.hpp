@@ -24,6 +24,7 @@ struct Range {
   double lower = -largest, upper = largest;
   Bound lower_bound = Bound::closed, upper_bound = Bound::closed;
   std::string unit{};
+  std::string doubt{};  // said of a number that is not allowed
 
   bool holds(double value) const;
   std::string text() const;  // "> 0 [kg/m^3]"

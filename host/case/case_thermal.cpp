@@ -49,8 +49,6 @@ void check_viscosity(const Case& c, const FluidSpec& fluid, CaseProblems& proble
 
 void check_numerics(const Case& c, CaseProblems& problems) {
   const NumericsSetup& n = c.numerics;
-  if (n.yield == YieldModel::exact)
-    problems.add("numerics.yield", "value \"exact\" with [thermal]: allowed: \"regularised\"");
   if (n.viscous_step == ViscousStepping::explicit_step)
     problems.add(
         "numerics.viscous_step",

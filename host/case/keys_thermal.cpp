@@ -2,6 +2,7 @@
 #include "host/case/keys_thermal.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "host/case/case_rules.hpp"
 #include "host/case/suspension.hpp"
@@ -28,12 +29,17 @@ std::string row_text(const std::array<double, 2>& row) {
   return "row [" + show(row[0]) + ", " + show(row[1]) + "]";
 }
 
+Range temperatures() {
+  Range range = between(200, 4000, "K");
+  range.doubt = "kelvin, not degrees Celsius?";
+  return range;
+}
+
 // What is wrong with a temperature; empty: nothing.
 std::string temperature_fault(double t) {
-  constexpr double lowest = 200, highest = 4000;
-  if (t >= lowest && t <= highest) return "";
-  return "a temperature of " + show(t) + " K; kelvin, not degrees Celsius? allowed: " + show(lowest) +
-         " to " + show(highest) + " [K]";
+  const Range allowed = temperatures();
+  if (allowed.holds(t)) return "";
+  return "a temperature of " + show(t) + " K; " + allowed.doubt + " allowed: " + allowed.text_for(t);
 }
 
 // Rows over temperature; `level`: whether two may have the same.
@@ -191,10 +197,7 @@ void check_material(CaseVisitor& v, const MaterialSetup& m) {
 }  // namespace
 
 bool describe_temperature(CaseVisitor& v, const Key& k, double& value) {
-  if (!v.number(k, value, above(0, "K"))) return false;
-  const std::string fault = temperature_fault(value);
-  if (!fault.empty()) v.problem(k.name, fault);
-  return fault.empty();
+  return v.number(k, value, temperatures());
 }
 
 void describe_start_temperature(CaseVisitor& v, const Case& c, const Key& k, double& value) {
@@ -213,6 +216,12 @@ void describe_thermal(CaseVisitor& v, Case& c) {
     v.flag(key("radiation", "of free surfaces of fluids with an emissivity"), t.radiation);
     v.flag(key("viscous_heating", "(H8); off: slag warms by it by less than a kelvin an hour"),
            t.viscous_heating);
+    v.number(key("flow_until",
+                 "from then on nothing moves, no wall and no inlet either, and steps are as long as "
+                 "conduction allows: for "
+                 "minutes and hours of cooling after seconds of flow")
+                 .or_word("end_time", std::numeric_limits<double>::infinity()),
+             t.flow_until, at_least(0, "s"));
   });
 }
 

@@ -144,7 +144,10 @@ TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
 void add_time_step(CaseCheck& check, const BuiltCase& built) {
   const TimeStep step = time_step(built.setup, built.setup.numerics.sound_speed);
   check.time_step = step.length, check.time_step_reason = step.reason;
-  check.steps = std::ceil(built.resolved.output.last_time() / check.time_step);
+  const double last = built.resolved.output.last_time(),
+               flows = std::min(last, built.setup.thermal.flow_until);
+  check.steps =
+      std::ceil(flows / check.time_step) + std::ceil((last - flows) / conduction_time_step(built.setup));
 }
 
 // What each speed asks for and costs.
@@ -222,7 +225,8 @@ void add_facts(CaseCheck& check, const BuiltCase& built) {
   check.fluid_across = std::numeric_limits<double>::quiet_NaN();
   for (const FluidPiece& piece : check.pieces)
     if (!(piece.across >= check.fluid_across)) check.fluid_across = piece.across;
-  check.wall = thinnest_wall(built.resolved, setup);
+  check.walls = wall_thicknesses(built.resolved, setup);
+  check.wall = thinnest_of(check.walls);
   const Vec3d &a = setup.domain.lower, &b = setup.domain.upper;
   check.extents = format("(%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m", a.x, a.y, a.z, b.x, b.y, b.z);
   check.files = stl_extents(built.resolved);
@@ -315,7 +319,7 @@ CaseCheck check_case(const BuiltCase& built, const MachineSpeed& machine) {
   check.machine = machine;
   add_facts(check, built);
   add_costs(check, built);
-  check.heat = check_heat(built, check.speed, check.depth);
+  check.heat = check_heat(built, check.speed, check.depth, check.walls);
   add_warnings(check, built);
   check.advice = advice(check, built);
   return check;

@@ -50,7 +50,8 @@ struct CaseCheck {
   double viscosity_correction = 0;  // C of equation (7)
   std::vector<FluidPiece> pieces;   // of the fluid at the start, the largest first
   double fluid_across = 0;          // particles across the thinnest of them; not-a-number without any
-  ThinnestWall wall;
+  std::vector<ThinnestWall> walls;  // where each is thinnest
+  ThinnestWall wall;                // the thinnest of them
   std::string extents;              // of the domain
   std::vector<std::string> files;   // STL files, and what they reach over
   std::string exits;                // of the domain, and what becomes of fluid that leaves elsewhere

@@ -66,6 +66,33 @@ void add_contacts(const SimulationSetup& s, HeatCheck& check) {
   }
 }
 
+void add_thick_walls(const SimulationSetup& s, const std::vector<ThinnestWall>& walls, HeatCheck& check) {
+  const double last = s.end_time - s.start_time;
+  for (std::size_t k = 0; k < walls.size() && k < s.bodies.size(); ++k) {
+    const WallThermal& wall = s.bodies[k].thermal;
+    if (wall.kind != WallHeat::semi_infinite || walls[k].across >= ThinnestWall::thick) continue;
+    const double thickness = walls[k].across * s.spacing;
+    const double diffusivity = wall.conductivity / (wall.density * wall.heat_capacity);
+    const ThickWallHeat heat{s.bodies[k].name, thickness, thickness * thickness / (4 * diffusivity)};
+    check.thick_walls.push_back(heat);
+    if (heat.felt < last)
+      check.warnings.push_back(format(
+          "wall '%s': it is semi_infinite, as if it had no back, which heat would reach: %.3g m of it, "
+          "as it is drawn, are felt through from %.3g s on, before the end of the run at %.3g s",
+          heat.wall.c_str(), thickness, heat.felt, last));
+  }
+}
+
+void warn_of_inlets(const SimulationSetup& s, HeatCheck& check) {
+  for (const InletSetup& in : s.inlets) {
+    const FluidSetup& f = s.fluids[in.fluid];
+    if (viscosity_at(f.material, own_of(f), in.temperature) < f.material.max_viscosity * (1 - 1e-6)) continue;
+    check.warnings.push_back(
+        format("inlet '%s': fluid '%s' is solid at its temperature of %g K: it comes in as a bar",
+               in.name.c_str(), f.name.c_str(), in.temperature));
+  }
+}
+
 bool passes_heat(const SimulationSetup& s) {
   return std::any_of(s.bodies.begin(), s.bodies.end(),
                      [](const WallBody& b) { return b.thermal.kind != WallHeat::adiabatic; });
@@ -88,23 +115,27 @@ void warn_of(const SimulationSetup& s, const FluidHeat& heat, HeatCheck& check) 
 
 }  // namespace
 
-HeatCheck check_heat(const BuiltCase& built, double speed, double depth) {
+HeatCheck check_heat(const BuiltCase& built, double speed, double depth,
+                     const std::vector<ThinnestWall>& walls) {
   const SimulationSetup& s = built.setup;
   HeatCheck check;
   check.on = s.thermal.on;
   if (!check.on) return check;
-  check.time_step = conduction_time_step(s);
+  check.time_step = conduction_time_step(s), check.flow_until = s.thermal.flow_until;
   for (const FluidSetup& f : s.fluids) {
     check.fluids.push_back(numbers_of(s, f, speed, depth));
     warn_of(s, check.fluids.back(), check);
   }
-  add_contacts(s, check);
+  add_contacts(s, check), add_thick_walls(s, walls, check), warn_of_inlets(s, check);
   return check;
 }
 
 std::string to_text(const HeatCheck& check) {
   if (!check.on) return "";
   std::string text = format("heat             conduction is stable up to steps of %.3g s\n", check.time_step);
+  if (std::isfinite(check.flow_until))
+    text += format("                 such steps are taken from %.6g s on, when nothing moves any more\n",
+                   check.flow_until);
   for (const FluidHeat& f : check.fluids) {
     text += format("heat of %-8s alpha %.3g m^2/s, Biot of half a spacing %s, Stefan %s, Nahme %s\n",
                    f.name.c_str(), f.diffusivity, number(f.half_cell_biot).c_str(), number(f.stefan).c_str(),
@@ -117,11 +148,14 @@ std::string to_text(const HeatCheck& check) {
   for (const WallContactHeat& c : check.contacts)
     text += format("                 '%s' touches '%s' at %.0f K (%.0f degrees Celsius) in perfect contact\n",
                    c.fluid.c_str(), c.wall.c_str(), c.temperature, c.temperature - zero_celsius);
+  for (const ThickWallHeat& w : check.thick_walls)
+    text += format("                 '%s', %.3g m thick, is felt through after %.3g s\n", w.wall.c_str(),
+                   w.thickness, w.felt);
   return text;
 }
 
 Json to_json(const HeatCheck& check) {
-  Json fluids = Json::object(), contacts = Json::object();
+  Json fluids = Json::object(), contacts = Json::object(), felt = Json::object();
   for (const FluidHeat& f : check.fluids)
     fluids.set(f.name, Json::object()
                            .set("diffusivity", f.diffusivity)
@@ -131,7 +165,12 @@ Json to_json(const HeatCheck& check) {
                            .set("resolved_from", f.resolved_from)
                            .set("creep_rate", f.creep));
   for (const WallContactHeat& c : check.contacts) contacts.set(c.wall + "/" + c.fluid, c.temperature);
-  return Json::object().set("time_step", check.time_step).set("fluids", fluids).set("contacts", contacts);
+  for (const ThickWallHeat& w : check.thick_walls) felt.set(w.wall, w.felt);
+  return Json::object()
+      .set("time_step", check.time_step)
+      .set("fluids", fluids)
+      .set("contacts", contacts)
+      .set("walls_felt_through", felt);
 }
 
 }  // namespace slagflow

@@ -6,6 +6,7 @@
 
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/summary_json.hpp"
+#include "host/run/start_facts.hpp"
 
 namespace slagflow {
 
@@ -22,17 +23,24 @@ struct WallContactHeat {
   std::string wall, fluid;
   double temperature = 0;  // [K] where they touch at first, without contact resistance
 };
+struct ThickWallHeat {
+  std::string wall;
+  double thickness = 0;  // [m] as drawn
+  double felt = 0;       // [s] from which on it is felt that it ends: sqrt(alpha t) is half of the thickness
+};
 
 struct HeatCheck {
   bool on = false;
-  double time_step = 0;  // [s] (H11)
+  double time_step = 0;   // [s] (H11)
+  double flow_until = 0;  // [s]; infinite: all the time
   std::vector<FluidHeat> fluids;
   std::vector<WallContactHeat> contacts;
+  std::vector<ThickWallHeat> thick_walls;
   std::vector<std::string> warnings;
 };
 
 // `speed` U and `depth` H as of the case's other numbers [m/s], [m].
-HeatCheck check_heat(const BuiltCase&, double speed, double depth);
+HeatCheck check_heat(const BuiltCase&, double speed, double depth, const std::vector<ThinnestWall>&);
 std::string to_text(const HeatCheck&);
 Json to_json(const HeatCheck&);
 

@@ -164,9 +164,9 @@ std::vector<FluidPiece> fluid_pieces(const SimulationSetup& setup, Vec3d origin)
   return pieces;
 }
 
-ThinnestWall thinnest_wall(const Case& c, const SimulationSetup& setup) {
+std::vector<ThinnestWall> wall_thicknesses(const Case& c, const SimulationSetup& setup) {
   const WallParticles& walls = setup.walls;
-  ThinnestWall thinnest;
+  std::vector<ThinnestWall> thinnest(c.walls.size());
   if (c.walls.empty() || walls.normal.size() != walls.position.size()) return thinnest;
   const WallLook look(c);
   constexpr std::size_t looked_at = 20000;
@@ -177,8 +177,15 @@ ThinnestWall thinnest_wall(const Case& c, const SimulationSetup& setup) {
     const Vec3d foot = walls.position[w] + walls.depth[w] * walls.normal[w];
     if (!look.open_before(foot, walls.normal[w], body)) continue;
     const double across = look.thickness(foot, walls.normal[w], body);
-    if (across < thinnest.across - 1e-3) thinnest = {c.walls[body].name, across, foot};
+    if (across < thinnest[body].across - 1e-3) thinnest[body] = {c.walls[body].name, across, foot};
   }
+  return thinnest;
+}
+
+ThinnestWall thinnest_of(const std::vector<ThinnestWall>& walls) {
+  ThinnestWall thinnest;
+  for (const ThinnestWall& wall : walls)
+    if (wall.across < thinnest.across - 1e-3) thinnest = wall;
   return thinnest;
 }
 

@@ -27,7 +27,9 @@ struct ThinnestWall {
   double across = thick;  // spacings
   Vec3d place;            // [m]
 };
-ThinnestWall thinnest_wall(const Case& c, const SimulationSetup& setup);
+// Where each wall of the case is thinnest; `name` is empty where it is thick.
+std::vector<ThinnestWall> wall_thicknesses(const Case& c, const SimulationSetup& setup);
+ThinnestWall thinnest_of(const std::vector<ThinnestWall>& walls);
 
 // "FILE from (..) to (..) m" of each STL file, once.
 std::vector<std::string> stl_extents(const Case& c);

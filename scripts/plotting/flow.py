@@ -1,4 +1,4 @@
-"""The flow at some times in three views, coloured by speed."""
+"""The flow at some times in three views, coloured by speed or another quantity."""
 
 import matplotlib
 
@@ -11,6 +11,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.ticker import MaxNLocator
 
+from plotting.quantity import Quantity
 from plotting.splat import Canvas, View
 
 DPI = 200
@@ -80,6 +81,23 @@ def speed_limit(run, steps):
     return float(unit * next(m for m in (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10) if m * unit >= top * 0.999))
 
 
+class Colouring:
+    """What colours the particles at some steps, on one scale. Raises KeyError where the run has not written what it needs."""
+
+    def __init__(self, run, steps, name):
+        if name == "speed":
+            self.map, self.label, self.norm = COLOURS, "speed  [cm/s]", Normalize(0, speed_limit(run, steps))
+            self._values = lambda step: 100 * run.fluid.speeds(step)
+            return
+        quantity = Quantity(run, steps, name)
+        quantity.share(quantity.limits)
+        self.map, self.label, self.norm = quantity.map, quantity.label, Normalize(*quantity.limits)
+        self._values = lambda step: quantity.factor * quantity.values[step]
+
+    def colours(self, step):
+        return self.map(self.norm(self._values(step)))[:, :3]
+
+
 def flat_layer(panel, scale, scene, walls, grey):
     canvas = Canvas(panel.box, scale)
     canvas.splat(panel.view.project(walls), 0.72 * scene.spacing)  # just closes the gaps of the lattice
@@ -105,11 +123,10 @@ def wall_layers(panel, scale, scene, row):
     return layers
 
 
-def fluid_layer(panel, scale, scene, step, norm):
-    positions, speeds = scene.run.fluid.positions(step), 100 * scene.run.fluid.speeds(step)
+def fluid_layer(panel, scale, scene, step, colours):
     canvas = Canvas(panel.box, scale)
-    canvas.splat(panel.view.project(positions), 0.5 * scene.spacing)
-    return canvas.picture(COLOURS(norm(speeds))[:, :3], 4 * scene.spacing, rim=0.3)
+    canvas.splat(panel.view.project(scene.run.fluid.positions(step)), 0.5 * scene.spacing)
+    return canvas.picture(colours, 4 * scene.spacing, rim=0.3)
 
 
 def dress(axes, panel):
@@ -145,13 +162,13 @@ def panels_of(scene):
     return [side, Panel(scene, FRONT, ("y", "")), Panel(scene, OBLIQUE, ("", ""))]
 
 
-def add_colour_bar(figure, norm, layout):
+def add_colour_bar(figure, colouring, layout):
     length = min(3.2, 0.6 * layout.width) / layout.width
     axes = figure.add_axes([0.5 - length / 2, 1 - 0.5 / layout.height, length, 0.1 / layout.height])
-    bar = figure.colorbar(ScalarMappable(norm, COLOURS), cax=axes, orientation="horizontal", extend="max")
+    bar = figure.colorbar(ScalarMappable(colouring.norm, colouring.map), cax=axes, orientation="horizontal", extend="max")
     bar.outline.set_linewidth(0.4)
     bar.ax.tick_params(labelsize=7, length=2, pad=1)
-    bar.set_label("speed  [cm/s]", fontsize=8, labelpad=1)
+    bar.set_label(colouring.label, fontsize=8, labelpad=1)
 
 
 class Layout:
@@ -171,48 +188,48 @@ class Layout:
                                 tall / self.height])
 
 
-def draw_row(figure, layout, scene, panels, row, norm):
-    left = MARGIN
+def draw_row(figure, layout, scene, panels, row, colouring):
+    left, step = MARGIN, scene.steps[row]
     for panel in panels:
         behind = wall_layers(panel, layout.scale * DPI, scene, row)
         axes = layout.axes(figure, panel, left, row)
-        for layer in behind + [fluid_layer(panel, layout.scale * DPI, scene, scene.steps[row], norm)]:
+        for layer in behind + [fluid_layer(panel, layout.scale * DPI, scene, step, colouring.colours(step))]:
             axes.imshow(layer, origin="lower", extent=panel.extent, interpolation="none")
         dress(axes, panel)
         if left == MARGIN:
-            time = scene.run.fluid.times[scene.steps[row]]
+            time = scene.run.fluid.times[step]
             axes.set_title(f"t = {time:.3g} s", loc="left", fontsize=9, pad=4)
         if row == len(scene.steps) - 1:
             axes.set_xlabel(panel.label(0), fontsize=8, labelpad=1)
         left += layout.scale * panel.size[0] + GAP
 
 
-def draw(run, steps, path):
+def draw(run, steps, path, colour="speed"):
     """Writes the picture: a row for each step, a column for each view."""
     scene = Scene(run, steps)
     panels = panels_of(scene)
-    figure = figure_of(scene, panels, Layout(panels, len(steps)), Normalize(0, speed_limit(run, steps)))
+    figure = figure_of(scene, panels, Layout(panels, len(steps)), Colouring(run, steps, colour))
     figure.savefig(path, dpi=DPI)
     plt.close(figure)
 
 
-def figure_of(scene, panels, layout, norm):
+def figure_of(scene, panels, layout, colouring):
     figure = plt.figure(figsize=(layout.width, layout.height), facecolor="white")
     figure.text(0.5, 1 - 0.2 / layout.height, scene.run.title.replace("_", " "), ha="center", va="center", fontsize=11)
-    add_colour_bar(figure, norm, layout)
+    add_colour_bar(figure, colouring, layout)
     for row in range(len(scene.steps)):
-        draw_row(figure, layout, scene, panels, row, norm)
+        draw_row(figure, layout, scene, panels, row, colouring)
     return figure
 
 
-def draw_movie(run, path, milliseconds=100):
+def draw_movie(run, path, colour="speed", milliseconds=100):
     """Writes a GIF of all steps, one a frame, to one scale and one map of colours."""
     steps = list(range(len(run.fluid.times)))
     panels = panels_of(Scene(run, steps))
-    layout, norm = Layout(panels, 1), Normalize(0, speed_limit(run, steps))
+    layout, colouring = Layout(panels, 1), Colouring(run, steps, colour)
     frames = []
     for step in steps:
-        figure = figure_of(Scene(run, [step]), panels, layout, norm)
+        figure = figure_of(Scene(run, [step]), panels, layout, colouring)
         figure.set_dpi(DPI / 2)
         figure.canvas.draw()
         frames.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB"))

@@ -47,7 +47,8 @@ def draw(pictures, heading, path):
         across, tall = scale * picture.panel.size
         axes = figure.add_axes([left / width, (FOOT + tallest - tall) / height, across / width, tall / height])
         layers = flow.wall_layers(picture.panel, scale * flow.DPI, picture.scene, 0)
-        for layer in layers + [flow.fluid_layer(picture.panel, scale * flow.DPI, picture.scene, picture.step, norm)]:
+        colours = flow.COLOURS(norm(100 * picture.scene.run.fluid.speeds(picture.step)))[:, :3]
+        for layer in layers + [flow.fluid_layer(picture.panel, scale * flow.DPI, picture.scene, picture.step, colours)]:
             axes.imshow(layer, origin="lower", extent=picture.panel.extent, interpolation="none")
         flow.dress(axes, picture.panel)
         axes.set_title(picture.title, loc="left", fontsize=8, pad=4)

@@ -8,7 +8,7 @@ import importlib
 FLOWS = ("poiseuille", "couette", "bingham_poiseuille", "creep", "film", "pipe", "cylinders", "shear_wave",
          "as_printed", "taylor_green", "rigid_rotation", "hydrostatic", "slump", "vertical_face", "gravity_current",
          "drops", "meniscus", "layers", "impact", "turning", "two_fluids", "start", "slopes", "waves", "sheet", "sheared_box",
-         "splash", "slip_film", "openings", "heat")
+         "splash", "slip_film", "openings", "heat", "lava")
 
 
 def comparisons():

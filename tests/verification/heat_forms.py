@@ -30,6 +30,14 @@ def slab_between_walls_mean(fourier):
     return float(np.sum(8 / (n * np.pi) ** 2 * np.exp(-(n * np.pi) ** 2 * fourier)))
 
 
+def half_space_with_flux(depth, diffusivity, time):
+    """Temperature over flux / conductivity [m] at a depth below a surface through which it comes (ibid. 2.9)."""
+    from math import erfc
+    root = np.sqrt(diffusivity * time)
+    return (2 * root / np.sqrt(np.pi) * np.exp(-depth**2 / (4 * root**2))
+            - depth * np.vectorize(erfc)(depth / (2 * root)))
+
+
 def convection_roots(biot):
     """z tan z = Biot."""
     return np.array([bisect(lambda z: z * np.sin(z) - biot * np.cos(z) if k % 2 == 0 else
@@ -80,6 +88,39 @@ class Neumann:
     def heat(self, time):
         """To the wall [J/m²]."""
         return 2 * self.k * (self.melting - self.wall) / erf(self.root) * np.sqrt(time / (np.pi * self.alpha))
+
+
+class Freezing:
+    """The same where latent heat is freed over a range of temperatures. x/sqrt(t) = z alone matters: with the potential
+    and the flux q = dTheta/dz the equation is dq = -rho z/2 dh. It is followed over temperature, from the wall's to that
+    of the start, where the flux must end."""
+
+    def __init__(self, material, density, wall, start):
+        t = np.linspace(wall, start, 8001)
+        self._t, self._rows = t, list(zip(np.diff(material.potential(t)), density * np.diff(material.enthalpy(t))))
+        self.flux = bisect(lambda flux: 1 if self._places(flux) else -1, 1e3, 1e8)
+        self._z = self._places(self.flux * (1 + 1e-9))
+
+    def _places(self, flux):
+        """z of each temperature; nothing where the flux ends before."""
+        z, q, found = 0.0, flux, [0.0]
+        for potential, heat in self._rows:
+            ahead = q
+            for _ in range(2):
+                step = 2 * potential / (q + ahead)
+                ahead = q - 0.5 * (z + 0.5 * step) * heat
+                if ahead <= 0:
+                    return []
+            z, q = z + step, ahead
+            found.append(z)
+        return found
+
+    def front(self, temperature, time):
+        return float(np.interp(temperature, self._t, self._z)) * np.sqrt(time)
+
+    def heat(self, time):
+        """To the wall [J/m²]."""
+        return 2 * self.flux * np.sqrt(time)
 
 
 class Slab:
@@ -203,6 +244,17 @@ def poiseuille_with_viscosity(height, viscosity, push):
         return np.concatenate([[0], np.cumsum(0.5 * (f[1:] + f[:-1]) * np.diff(height))])
     moment, plain = integral(height * inverse), integral(inverse)
     return push * (moment[-1] / plain[-1] * plain - moment)
+
+
+def poiseuille_with_yield(height, viscosity, yield_stress, push):
+    """The same with a yield stress [Pa] at each height: flows where push |y* - y| is above it, y* such that u is 0 again."""
+    def slope(middle):
+        stress = push * (middle - height)
+        return np.sign(stress) * np.maximum(abs(stress) - yield_stress, 0) / viscosity
+    def u(middle):
+        f = slope(middle)
+        return np.concatenate([[0], np.cumsum(0.5 * (f[1:] + f[:-1]) * np.diff(height))])
+    return u(bisect(lambda middle: u(middle)[-1], height[0], height[-1]))
 
 
 def film_start(height, depth, viscosity, density, push, time):

@@ -78,8 +78,9 @@ class Conduction : public testing::TestWithParam<SceneOptions> {
     for (const std::uint8_t body : sites.body) oracle_.site_body.push_back(body);
     const double pi = reference::pi;
     const bool flat = s.dimensions == 2;
-    for (int k = 0; k < 128; ++k) {
-      const double along = (k + 0.5) / 128, z = 1 - 2 * along, r = std::sqrt(1 - z * z);
+    const int count = flat ? 132 : 128;
+    for (int k = 0; k < count; ++k) {
+      const double along = (k + 0.5) / count, z = 1 - 2 * along, r = std::sqrt(1 - z * z);
       const double turn = flat ? 2 * pi * along : pi * (1 + std::sqrt(5.0)) * (k + 0.5);
       oracle_.directions.push_back(flat ? reference::Vec{std::cos(turn), 0, std::sin(turn)}
                                         : reference::Vec{r * std::cos(turn), r * std::sin(turn), z});
@@ -140,6 +141,26 @@ TEST_P(Conduction, AgreesWithTheOracle) {
   EXPECT_EQ(all > 0, !scene_.world.walls.empty());
   // What the fluid lost is what was told to have left it.
   EXPECT_NEAR(balance.error(), 0, 1e-6 * (surface + all));
+}
+
+// The mean over a site's pairs of T + q d/k, the fluid's side of the contact; unknown where there is no
+// fluid.
+TEST_P(Conduction, TellsTheSurfaceOfAWallWithAFlux) {
+  changes();
+  const std::vector<float> told = heat_.wall_temperatures();
+  for (std::size_t w = 0; w < told.size(); ++w) {
+    const int s = oracle_.site[w];
+    if (s < 0 || oracle_.site_body[static_cast<std::size_t>(s)] != 2) continue;
+    double covered = 0, touches = 0;
+    oracle_.each_pair(s, [&](std::size_t i, reference::HeatWorld::Contact c) {
+      const double t = oracle_.temperature[i];
+      covered += c.area, touches += c.area * (t + oracle_.bodies[2].flux_in * c.distance / oracle_.k(i, t));
+    });
+    if (covered > 0)
+      EXPECT_NEAR(told[w], touches / covered, 1e-4 * touches / covered) << w;
+    else
+      EXPECT_TRUE(std::isnan(told[w])) << w;
+  }
 }
 
 TEST_P(Conduction, KeepsTheHeatOfFluidBetweenParticles) {

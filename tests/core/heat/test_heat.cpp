@@ -54,10 +54,18 @@ TEST(Heat, IsKeptWhileFluidMovesAndLeaves) {
   EXPECT_NEAR(t.heat.error(), 0, 1e-6 * (t.heat.surface + t.heat.walls.at(0)));
 }
 
+// Also with exact yield stresses, of which the cold fluid has more.
+SimulationSetup exact_hot_dam() {
+  SimulationSetup s = hot_dam();
+  s.numerics.yield = YieldModel::exact;
+  s.fluids[0].material.yield_stress = {{0, 2}, {0.5, 50}};
+  return s;
+}
+
 TEST(Heat, OfARestoredStateGoesOnToTheBit) {
-  for (const bool friction : {false, true}) {
-    SimulationSetup setup = hot_dam();
-    setup.thermal.viscous_heating = friction;
+  for (const int what : {0, 1, 2}) {
+    SimulationSetup setup = what == 2 ? exact_hot_dam() : hot_dam();
+    setup.thermal.viscous_heating = what > 0;
     Simulation whole(setup), first(setup), second(setup);
     run(whole, 60), run(first, 30);
     second.restore(first.save());
@@ -74,6 +82,48 @@ TEST(Heat, OfARestoredStateGoesOnToTheBit) {
       EXPECT_TRUE(walls_a.temperature[k] == walls_b.temperature[k] ||
                   (std::isnan(walls_a.temperature[k]) && std::isnan(walls_b.temperature[k])));
   }
+}
+
+// From flow_until on, in few steps, while places stay and nothing is lost.
+SimulationSetup dam_that_stops(double end) {
+  SimulationSetup s = hot_dam();
+  s.thermal.flow_until = 0.02, s.end_time = end;
+  return s;
+}
+
+TEST(Heat, GoesOnAloneOnceTheFlowIsOver) {
+  Simulation simulation(dam_that_stops(1000));
+  while (simulation.time() < 0.02) simulation.step();
+  ASSERT_EQ(simulation.time(), 0.02);
+  FluidSnapshot before, after;
+  simulation.read(before);
+  const auto flow_steps = simulation.steps();
+  while (simulation.time() < 1000) simulation.step();
+  EXPECT_EQ(simulation.time(), 1000);
+  EXPECT_LT(simulation.steps() - flow_steps, 300);
+  simulation.read(after);
+  EXPECT_EQ(after.time, 1000);
+  ASSERT_EQ(before.id, after.id);
+  for (std::size_t i = 0; i < before.id.size(); ++i)
+    EXPECT_TRUE(before.position[i] == after.position[i]) << i;
+  const Totals t = simulation.totals();
+  EXPECT_EQ(t.kinetic_energy, 0);
+  EXPECT_LT(t.heat.hottest, 1500);
+  EXPECT_NEAR(t.heat.error(), 0, 1e-6 * (t.heat.surface + t.heat.walls.at(0)));
+}
+
+TEST(Heat, AloneOfARestoredStateGoesOnToTheBit) {
+  const SimulationSetup setup = dam_that_stops(100);
+  Simulation whole(setup), first(setup), second(setup);
+  while (first.time() < 30) first.step(), whole.step();
+  second.restore(first.save());
+  EXPECT_EQ(second.time(), first.time());
+  EXPECT_EQ(second.time_step(), first.time_step());
+  while (whole.time() < 100) whole.step(), second.step();
+  FluidSnapshot a, b;
+  whole.read(a), second.read(b);
+  expect_same(a, b);
+  EXPECT_EQ(whole.totals().heat.surface, second.totals().heat.surface);
 }
 
 TEST(Heat, TellsWhatIsSolid) {
@@ -116,10 +166,32 @@ TEST(Heat, OfOneTemperatureChangesNothing) {
               1e-9 * a.totals().heat.start);
 }
 
+// To the bit where the rheology is Newtonian and exp(ln eta) is eta.
+TEST(Heat, OfOneTemperatureKeepsTheBitsOfARunWithout) {
+  SimulationSetup plain = dam(), warm = hot_dam();
+  for (SimulationSetup* s : {&plain, &warm})
+    for (FluidSetup& f : s->fluids) f.rheology = {RheologyKind::newtonian, {Real(1)}};
+  warm.thermal = {true, 300, 0, false, false, 1700};
+  warm.bodies[0].thermal = {};
+  for (double& t : warm.particles.temperature) t = 1700;
+  for (FluidSetup& f : warm.fluids) f.material.liquid = {}, f.material.suspended = false;
+  Simulation a(warm), b(plain);
+  run(a, 100), run(b, 100);
+  FluidSnapshot sa, sb;
+  a.read(sa), b.read(sb);
+  ASSERT_EQ(sa.id, sb.id);
+  EXPECT_EQ(sa.pressure, sb.pressure);
+  for (std::size_t i = 0; i < sa.id.size(); ++i) EXPECT_TRUE(sa.position[i] == sb.position[i]) << i;
+}
+
 // What viscosity takes from the motion warms the fluid: a block that is sheared in a box by itself.
-TEST(Heat, OfFrictionIsTheEnergyThatIsLost) {
+class HeatOfFriction : public testing::TestWithParam<YieldModel> {};
+
+TEST_P(HeatOfFriction, IsTheEnergyThatIsLost) {
   SimulationSetup s = spinning_block(0);
   s.fluids = {{"oil", 900, {RheologyKind::newtonian, {Real(5)}}}};
+  if (GetParam() == YieldModel::exact) s.fluids[0].rheology = {RheologyKind::bingham, {Real(2), Real(10)}};
+  s.numerics.yield = GetParam();
   s.fluids[0].material.heat_capacity = {{300, 10}}, s.fluids[0].material.conductivity = {{300, 1}};
   s.thermal = {true, 300, 0, false, true, 400};
   for (std::size_t i = 0; i < s.particles.position.size(); ++i) {
@@ -135,6 +207,11 @@ TEST(Heat, OfFrictionIsTheEnergyThatIsLost) {
   EXPECT_NEAR(t.heat.error(), 0, 1e-6 * t.heat.viscous);
   EXPECT_GT(t.heat.hottest, 400);
 }
+
+INSTANTIATE_TEST_SUITE_P(Yields, HeatOfFriction, testing::Values(YieldModel::regularised, YieldModel::exact),
+                         [](const auto& test) {
+                           return test.param == YieldModel::exact ? "Exact" : "Regularised";
+                         });
 
 // Solid fluid moves as a body: a bar that is thrown turning keeps its shape.
 TEST(Heat, SolidFluidKeepsItsShape) {

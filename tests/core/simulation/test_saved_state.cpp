@@ -108,7 +108,7 @@ TEST(SavedState, WithTooFewOrTooManyNumbersIsRefused) {
 }
 
 TEST(SavedState, WithACountThatNoIntegerHoldsIsRefused) {
-  constexpr std::size_t steps = 9;  // its place among the numbers
+  constexpr std::size_t steps = 11;  // its place among the numbers
   Simulation simulation(dam());
   SavedState state = saved_after(simulation, 2);
   double held = 0;

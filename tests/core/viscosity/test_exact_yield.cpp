@@ -42,14 +42,40 @@ void mix_in_oil(Scene& scene) {
     scene.world.particles[i].fluid = 1, scene.world.particles[i].viscosity = 2 * eta;
 }
 
+// Colder from the floor up: thicker, of a higher yield stress, and solid on top. Returns the yield stresses.
+std::vector<double> cool(Scene& scene, double tau) {
+  constexpr double eta_solid = 50;
+  std::vector<double> yield;
+  const double top = scene.setup.domain.upper.z;
+  for (auto& p : scene.world.particles) {
+    const double height = p.x.z / top;
+    p.solid = height > 0.8;
+    p.viscosity = p.key = rounded(p.solid ? eta_solid : 0.2 * std::exp(3 * height));
+    yield.push_back(p.solid || height < 0.2 ? 0 : rounded(2 * tau * height));
+  }
+  return yield;
+}
+
+// Of a Bingham fluid, after upload().
+void upload_melt(Scene& scene, const std::vector<double>& yield) {
+  std::vector<Quad> melt;
+  for (const Index id : download(scene.context, scene.fluid.id.span())) {
+    const auto& p = scene.world.particles[static_cast<std::size_t>(id)];
+    const auto key = static_cast<Real>(p.key);
+    melt.push_back({key, static_cast<Real>(yield[static_cast<std::size_t>(id)]), Real(p.solid ? 1 : 0), key});
+  }
+  scene.fluid.melt.upload(melt);
+}
+
 struct Solved {
   SolveResult result;
   std::vector<Quad> velocity;  // by id
   std::vector<Real> held;
 };
 
-Solved advance(Scene& scene, const NumericsSetup& n) {
+Solved advance(Scene& scene, const NumericsSetup& n, const std::vector<double>& melt_yield = {}) {
   scene.upload();
+  if (!melt_yield.empty()) upload_melt(scene, melt_yield);
   ViscousStep step(scene.context, n);
   step.exact_yield().follow({scene.fluid_list, scene.wall_list, scene.fluid.id, scene.wall.id},
                             scene.fluid.count);
@@ -73,22 +99,21 @@ struct Compared {
   std::size_t held = 0, wrongly_yielded = 0;
 };
 
-Compared compare(Scene& scene, double tau) {
-  const Solved solved = advance(scene, exact_numerics());
+// `yield` [Pa] of each particle.
+Compared compare(Scene& scene, const std::vector<double>& yield, bool melts = false) {
+  const Solved solved = advance(scene, exact_numerics(), melts ? yield : std::vector<double>{});
   EXPECT_TRUE(solved.result.converged) << solved.result.yield_iterations;
   std::vector<reference::Vec> predicted;
   for (const Quad& q : assemble(scene, dt, 1).predicted) predicted.push_back(to_host(q));
   const auto system = reference::viscous_system(scene.world, predicted, dt, 1);
   const std::size_t n = scene.world.particles.size();
-  std::vector<double> yield;
-  for (const auto& p : scene.world.particles) yield.push_back(p.fluid == 0 ? tau : 0);
   const auto wanted = reference::YieldOracle(scene.world, system, yield, dt).solve(3000);
   Compared c;
   for (std::size_t i = 0; i < n; ++i) {
     const reference::Vec want{wanted.velocity[3 * i], wanted.velocity[3 * i + 1], wanted.velocity[3 * i + 2]};
     const reference::Vec error = to_host(solved.velocity[i]) - want, change = want - predicted[i];
     c.error += reference::dot(error, error), c.shift += reference::dot(change, change);
-    if (wanted.held[i] > 0.95) continue;
+    if (wanted.held[i] > 0.95 || yield[i] == 0) continue;
     ++c.held;
     // The stresses of a plug are not unique: they may touch the yield stress, but not shear.
     if (solved.held[i] < Real(0.99)) ++c.wrongly_yielded;
@@ -98,6 +123,12 @@ Compared compare(Scene& scene, double tau) {
   // The duality gap bounds the oracle's own error: 1/2 sum m |error|^2.
   c.own_error = std::sqrt(2 * std::max(wanted.gap, 0.0) / (scene.world.particles[0].mass * count));
   return c;
+}
+
+Compared compare(Scene& scene, double tau) {
+  std::vector<double> yield;
+  for (const auto& p : scene.world.particles) yield.push_back(p.fluid == 0 ? tau : 0);
+  return compare(scene, yield);
 }
 
 TEST_P(ExactYieldIn, MatchesADenseConvexSolver) {
@@ -126,6 +157,22 @@ TEST_P(ExactYieldIn, KeepsDistancesAlongChordsAsADenseConvexSolverDoes) {
   EXPECT_LT(c.error, c.own_error + 1e-4);
   EXPECT_LT(c.own_error, 1e-3) << "the oracle has not arrived";
   EXPECT_GT(c.shift, 0.05) << "the stresses do nothing";
+}
+
+// Yield stress, viscosity and (H10) of each particle's temperature.
+TEST_P(ExactYieldIn, WithHeatMatchesADenseConvexSolver) {
+  std::size_t held = 0;
+  for (const double tau : {1500.0, 20000.0}) {
+    Scene scene(GetParam());
+    make_bingham(scene, tau), disturb(scene);
+    const Compared c = compare(scene, cool(scene, tau), true);
+    EXPECT_LT(c.error, c.own_error + 1e-4) << "yield stress " << tau;
+    EXPECT_LT(c.own_error, 3e-3) << "the oracle has not arrived";
+    EXPECT_GT(c.shift, 0.05) << "the stresses do nothing";
+    EXPECT_LE(c.wrongly_yielded, c.held / 10);
+    held += c.held;
+  }
+  EXPECT_GT(held, 0) << "there is no plug";
 }
 
 INSTANTIATE_TEST_SUITE_P(, ExactYieldIn,

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "backend/error.hpp"
 #include "heat/material_table.hpp"
 #include "host/geometry/setup_builder.hpp"
@@ -124,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"region.0.temperature=1500.5e-1", "region.0.temperature", "kelvin, not degrees Celsius?"},
         Refusal{"region.0.temperature=25", "region.0.temperature", "kelvin, not degrees Celsius?"},
-        Refusal{"region.0.temperature=5000", "region.0.temperature", "200.0 to 4000.0 [K]"},
+        Refusal{"region.0.temperature=5000", "region.0.temperature", ">= 200.0 and <= 4000.0 [K]"},
         Refusal{"wall.0.temperature=25", "wall.0.temperature", "kelvin, not degrees Celsius?"},
         Refusal{"thermal.ambient_temperature=25", "thermal.ambient_temperature", "kelvin"},
         Refusal{"fluid.slag.solid_fraction=[[1200, 1], [1400, 0.5], [1400.5, 0.6], [1500, 0]]",
@@ -151,9 +153,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"wall.0.contact_heat_transfer=0", "wall.0.contact_heat_transfer", "\"perfect\""},
         Refusal{"wall.0.surface_velocity=[1, 0, 0]", "wall.0.thermal", "surface_velocity"},
         Refusal{"thermal.surface_heat_transfer=-1", "thermal.surface_heat_transfer", ">= 0"},
+        Refusal{"thermal.flow_until=-1", "thermal.flow_until", "or \"end_time\""},
         Refusal{"numerics.viscous_step='explicit'", "numerics.viscous_step", "implicit"},
-        Refusal{"numerics.scheme='paper'", "numerics.theta", "backward Euler"},
-        Refusal{"numerics.yield='exact'", "numerics.yield", "regularised"}));
+        Refusal{"numerics.scheme='paper'", "numerics.theta", "backward Euler"}));
 
 TEST(CaseThermal, WithoutTheTableItsKeysAreRefused) {
   std::string cold = hot;
@@ -200,6 +202,43 @@ TEST(CaseThermal, CheckTellsWhatIsNotResolved) {
   EXPECT_THAT(check.warnings, testing::Contains(HasSubstr("heat to walls is right within 5 % only from")));
   EXPECT_THAT(check.warnings, testing::Contains(HasSubstr("the surface's temperature is not resolved")));
   EXPECT_THAT(to_text(check), HasSubstr("conduction is stable up to steps of"));
+}
+
+TEST(CaseThermal, CheckCountsTheStepsOfHeatAlone) {
+  const auto check = [](const std::string& until) {
+    return check_case(
+        build_setup(parse_case(hot, "h.toml", {"output.end_time=3600", "thermal.flow_until=" + until})));
+  };
+  const CaseCheck alone = check("0"), both = check("1");
+  EXPECT_EQ(alone.steps, std::ceil(3600 / alone.heat.time_step));
+  EXPECT_EQ(both.steps, std::ceil(1 / both.time_step) + std::ceil(3599 / both.heat.time_step));
+  EXPECT_THAT(to_text(both), HasSubstr("such steps are taken from 1 s on, when nothing moves any more"));
+  const Case c = parse_case(hot, "h.toml", {"thermal.flow_until=7"});
+  EXPECT_EQ(parse_case(to_toml(c), "again.toml").thermal.flow_until, 7);
+}
+
+// 40 mm of steel: (20 mm)^2 over 40/(7850 550) m^2/s.
+TEST(CaseThermal, CheckTellsWhenAThickWallIsFeltThrough) {
+  const auto check = [](const std::string& end) {
+    return check_case(build_setup(parse_case(hot, "h.toml", {"output.end_time=" + end})));
+  };
+  ASSERT_EQ(check("10").heat.thick_walls.size(), 1);
+  EXPECT_NEAR(check("10").heat.thick_walls[0].felt, 4e-4 * 7850 * 550 / 40, 0.5);
+  EXPECT_THAT(to_text(check("10")), HasSubstr("'runner', 0.04 m thick, is felt through after 43.2 s"));
+  EXPECT_THAT(check("10").warnings, testing::Not(testing::Contains(HasSubstr("semi_infinite"))));
+  EXPECT_THAT(check("60").warnings, testing::Contains(HasSubstr("felt through from 43.2 s on")));
+}
+
+TEST(CaseThermal, CheckTellsOfAnInletOfSolidFluid) {
+  const auto check = [](const std::string& temperature) {
+    return check_case(build_setup(parse_case(
+        hot, "h.toml",
+        {"inlet=[{name='feed', face='rectangle', center=[0.05, 0.05, 0.15], width=0.05, height=0.05, "
+         "normal=[0, 0, -1], velocity=0.1, temperature=" +
+         temperature + "}]"})));
+  };
+  EXPECT_THAT(check("1540").warnings, testing::Contains(HasSubstr("inlet 'feed': fluid 'slag' is solid at")));
+  EXPECT_THAT(check("1560").warnings, testing::Not(testing::Contains(HasSubstr("is solid at"))));
 }
 
 }  // namespace
