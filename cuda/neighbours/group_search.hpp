@@ -116,14 +116,10 @@ struct GroupSearch {
 struct RowStore {
   Span<Offset> row;
   Span<Index> length;
-  Span<std::uint8_t> room;  // registers; the most: so many or more
+  Span<std::uint8_t> room;  // in registers()
   Span<Index> entry;  // too short: nothing is written beyond its end, and `used` tells how long it must be
   Span<Offset> used;
 
-  static constexpr Index most_room = 255;
-  static std::uint8_t registers(Index entries) {
-    return static_cast<std::uint8_t>(smaller(whole_lanes(entries) / lane_count, Offset(most_room)));
-  }
   // Takes new room for row i, for n entries and `spare` registers.
   Offset take(Index i, Index n, Index spare) const {
     const Offset wanted = whole_lanes(n) + spare * lane_count;
@@ -180,7 +176,7 @@ struct FillPiece {
     const Index n = group.find(i, near, rows.entries + rows.size);
     store.length[i] = n;
     store.row[i] = rows.size;  // from the first collected row, until they are stored
-    store.room[i] = RowStore::registers(n);
+    store.room[i] = registers(n);
     rows.size += static_cast<Index>(whole_lanes(n));
     ++rows.count;
   }

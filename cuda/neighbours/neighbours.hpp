@@ -23,6 +23,11 @@ HOST_DEVICE inline Offset whole_lanes(Index entries) {
   return (static_cast<Offset>(entries) + lane_count - 1) / lane_count * lane_count;
 }
 
+// Of so many entries, in a byte: 255 stands for as many or more.
+HOST_DEVICE inline std::uint8_t registers(Index entries) {
+  return static_cast<std::uint8_t>(smaller(whole_lanes(entries) / lane_count, Offset(255)));
+}
+
 struct ListView {
   Span<const Offset> slice;  // where each slice begins
   Span<const Index> length;  // entries of each row

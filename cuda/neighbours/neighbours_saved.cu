@@ -74,12 +74,14 @@ struct RecallLength {
   Span<const Offset> start;
   Span<const std::uint8_t> bits;
   Span<Index> length;
-  Span<Offset> room;  // for the row in one piece
+  Span<Offset> entries;     // with the row in one piece
+  Span<std::uint8_t> room;  // the same in registers
   HOST_DEVICE void operator()(Index i) const {
     Index n = 0;
     for_remembered(search, i, from, bits.data + start[i], [&](Index) { ++n; });
     length[i] = n;
-    room[i] = whole_lanes(n);
+    entries[i] = whole_lanes(n);
+    room[i] = registers(n);
   }
 };
 
@@ -104,14 +106,6 @@ struct RecallRow {
     length[i] = smaller(k, room);
     for (; k < smaller(static_cast<Index>(whole_lanes(length[i])), room); ++k)
       entry[first + static_cast<Offset>(k) * slice_width] = search.self ? i : 0;
-  }
-};
-
-struct KeepRoom {
-  Span<const Offset> row;
-  Span<std::uint8_t> room;
-  HOST_DEVICE void operator()(Index i) const {
-    room[i] = static_cast<std::uint8_t>(smaller((row[i + 1] - row[i]) / lane_count, Offset(255)));
   }
 };
 
@@ -174,12 +168,12 @@ bool NeighbourList::recall_in(const Box& box, const ListedParticles& p, const Do
   Buffer<std::uint8_t> bits(context_, "bits of lists");
   bits.upload(saved);
   if constexpr (slice_width == 1) {
-    Buffer<Offset> room(context_, "room of rows", n);
+    Buffer<Offset> entries(context_, "entries of rows", n);
     launch(context_, "lengths of rows", n,
-           RecallLength<Box>{near, doubtful.from, start.span(), bits.span(), length_.span(), room.span()});
+           RecallLength<Box>{near, doubtful.from, start.span(), bits.span(), length_.span(), entries.span(),
+                             room_.span()});
     slice_.resize(n + 1);
-    exclusive_scan(context_, room.span(), slice_.span());
-    launch(context_, "room of rows", n, KeepRoom{slice_.span(), room_.span()});
+    exclusive_scan(context_, entries.span(), slice_.span());
     context_.copy_on_device(used_.span().data, slice_.span().data + n, sizeof(Offset));
     make_room();
   }

@@ -118,6 +118,7 @@ struct Simulation::State {
   double flow_end() const;
   void cool();
   void choose_time_step();
+  double step_across(double fluid_speed) const;
   double time_after_step() const;
   double velocity_step() const;
   ViscousStep::Step viscous_step();

@@ -13,10 +13,7 @@ void Simulation::step() {
   s.place_walls();
   if (!s.lists_hold()) {
     s.rebuild();
-    // A particle may not cross a quarter of the support in one step.
-    const double speed = larger(largest_speed(s.context, s.fluid, s.diagnostics),
-                                larger(s.walls.largest_speed(), s.inlets.largest_speed()));
-    s.full_dt = smaller(s.longest_step(), 0.25 * static_cast<double>(s.flow.support) / larger(speed, 1e-30));
+    s.full_dt = smaller(s.longest_step(), s.step_across(largest_speed(s.context, s.fluid, s.diagnostics)));
   }
   s.choose_time_step();
   s.place_walls();                         // with the velocities of this step
@@ -30,6 +27,9 @@ void Simulation::step() {
     s.lists_worn = s.last->worn;
     s.rectangles.follow(s.context, s.fluid, std::sqrt(s.last->speed_squared) * s.dt, s.reach.fluid_skin,
                         s.diagnostics);
+    // Between builds in a few steps down: a graph is recorded anew for each.
+    const double across = s.step_across(std::sqrt(s.last->speed_squared));
+    if (across < s.full_dt) s.full_dt = 0.9 * across;
     s.capillary_work += s.solve_step.dt * s.last->capillary_power;
     if (s.last->compression > s.largest_compression.value)
       s.largest_compression = {s.last->compression, s.time};
@@ -41,6 +41,12 @@ void Simulation::step() {
   ++s.steps;
   const bool too_dense = s.last && s.last->compression > s.setup.limits.max_compression;
   if (too_dense || s.steps % s.setup.limits.interval == 0) s.look();
+}
+
+// A particle may not cross a quarter of the support in one step.
+double Simulation::State::step_across(double fluid_speed) const {
+  const double speed = larger(fluid_speed, larger(walls.largest_speed(), inlets.largest_speed()));
+  return 0.25 * reach.support / larger(speed, 1e-30);
 }
 
 void Simulation::State::place_walls() {

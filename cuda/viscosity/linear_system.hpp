@@ -34,8 +34,8 @@ struct LinearSystem {
   PeriodicBox box;
   PairCoupling coupling = PairCoupling::radial;
 
-  // Calls use(space, coupling) with the box, or with an open one, and the coupling as a constant: what `use`
-  // calls is compiled, and inlined, for each.
+  // Calls use(space, coupling) with the box, or with an open one, and, in lanes, the coupling as a constant:
+  // what `use` calls is compiled, and inlined, for each. (On a GPU it costs registers.)
   template <class Use>
   HOST_DEVICE void as_one_of(Use use) const {
     box.any() ? with_coupling(box, use) : with_coupling(OpenBox{}, use);
@@ -107,8 +107,12 @@ struct LinearSystem {
 
   template <class Box, class Use>
   HOST_DEVICE void with_coupling(const Box& space, Use use) const {
-    coupling == PairCoupling::radial ? use(space, Constant<PairCoupling::radial>())
-                                     : use(space, Constant<PairCoupling::isotropic>());
+    if constexpr (lane_count == 1)
+      use(space, coupling);
+    else if (coupling == PairCoupling::radial)
+      use(space, Constant<PairCoupling::radial>());
+    else
+      use(space, Constant<PairCoupling::isotropic>());
   }
   HOST_DEVICE Vec3 on_diagonal(Index i, Vec3 here) const { return diagonal[i].w * here + wall[i] * here; }
 };

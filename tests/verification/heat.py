@@ -73,7 +73,8 @@ PASTE = {"fluid.oil.rheology": '"bingham"', "fluid.oil.solid_fraction": [[1300, 
          "fluid.oil.yield_stress": [[0.25, 0], [0.75, 100], [0.99, 148]], "body_force.acceleration": [40, 0, 0]}
 
 
-SURFACE = {"wall": '[{name="roll", shapes=[{shape="cylinder", start=[0, -1, 0], end=[0, 1, 0], radius=0.02}], '
+# The account of the energy of a solid of 1e6 Pa s drifts in fp32 by some hundredths of what it has in a turn of a radian.
+SURFACE = {"limits.max_energy_growth": 0.5, "wall": '[{name="roll", shapes=[{shape="cylinder", start=[0, -1, 0], end=[0, 1, 0], radius=0.02}], '
                    'surface_angular_velocity=[0, 1.5, 0]}]'}
 
 

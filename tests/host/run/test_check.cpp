@@ -49,9 +49,10 @@ TEST(CaseCheck, NumbersFollowTheirFormulas) {
 
 TEST(CaseCheck, TimeStepNamesItsLimit) {
   BuiltCase built = block();
-  EXPECT_NEAR(check_case(built).time_step, 0.8 * 0.013 / 7, 1e-12);
+  const double acoustic = built.setup.numerics.courant * 0.013 / 7;
+  EXPECT_NEAR(check_case(built).time_step, acoustic, 1e-12);
   EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("sound speed"));
-  EXPECT_EQ(check_case(built).steps, std::ceil(1 / (0.8 * 0.013 / 7)));
+  EXPECT_EQ(check_case(built).steps, std::ceil(1 / acoustic));
   built.setup.numerics.max_time_step = 1e-4;
   EXPECT_EQ(check_case(built).time_step, 1e-4);
   EXPECT_THAT(check_case(built).time_step_reason, testing::HasSubstr("max_time_step"));
@@ -74,8 +75,8 @@ TEST(CaseCheck, ExplicitViscosityIsLimitedByTheFluidAtRest) {
 
 TEST(CaseCheck, StrongDensityDiffusionLimitsTheTimeStep) {
   BuiltCase built = block();
-  const double acoustic = 0.8 * 0.013 / 7;
-  built.setup.numerics.density_diffusion = 0.2;
+  const double acoustic = built.setup.numerics.courant * 0.013 / 7;
+  built.setup.numerics.density_diffusion = 0.15;
   EXPECT_NEAR(check_case(built).time_step, acoustic, 1e-12);
   built.setup.numerics.density_diffusion = 1;
   // 0.7 x 2/(delta h c0 S), S = 16.74/h^2 in 3-D.
