@@ -31,8 +31,8 @@ double Simulation::State::flow_end() const {
   return setup.thermal.on ? smaller(setup.end_time, setup.thermal.flow_until) : setup.end_time;
 }
 
-// In steps as long as conduction allows, the last two of which share what is left. The clock of the flow
-// stands, by which walls and inlets go.
+// In steps as long as conduction and max_time_step allow, the last two of which share what is left. The clock
+// of the flow stands, by which walls and inlets go.
 void Simulation::State::cool() {
   if (heat_time < time) {
     heat_time = time;
@@ -40,6 +40,7 @@ void Simulation::State::cool() {
   }
   const double left = setup.end_time - heat_time;
   heat_dt = heat.longest_step();
+  if (setup.numerics.max_time_step > 0) heat_dt = smaller(heat_dt, setup.numerics.max_time_step);
   if (left > 0 && left < 2 * heat_dt) heat_dt = left <= heat_dt ? left : 0.5 * left;
   heat_time = heat_dt == left ? setup.end_time : heat_time + heat_dt;
   heat.conduct(pairs(), wall_to_fluid.view(), heat_time, fluid);

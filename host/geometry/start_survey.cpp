@@ -169,7 +169,8 @@ class StartSurvey {
     const double line = jet ? measure.bottom : measure.position;
     std::size_t beyond = 0;
     for (const Vec3d& p : filling_.fluid.position) beyond += way.sign * (p[way.axis] - line) > 0 ? 1 : 0;
-    if (static_cast<double>(beyond) < measure.fraction * static_cast<double>(piece_.size())) return;
+    if (beyond == 0 || static_cast<double>(beyond) < measure.fraction * static_cast<double>(piece_.size()))
+      return;
     warnings.push_back("measure '" + measure.name + "' has arrived at the start already: " +
                        percent(beyond, piece_.size()) + " of the fluid is beyond " +
                        (jet ? "bottom = " : "position = ") + show(line) + " m, fraction asks for " +

@@ -84,8 +84,8 @@ std::unique_ptr<Measure> make_measure(const MeasureSpec& spec, const SimulationS
 
 Measures::Measures(const Case& c, const SimulationSetup& setup) {
   Counts next;
-  const std::int64_t fed =
-      fed_particles(setup, c.output.last_time()) - fed_particles(setup, setup.start_time);
+  // By the end of the case: where a run is told to pause changes nothing.
+  const std::int64_t fed = fed_particles(setup, c.output.end_time) - fed_particles(setup, setup.start_time);
   for (const MeasureSpec& spec : c.measures) measures_.push_back(make_measure(spec, setup, fed, next));
 }
 

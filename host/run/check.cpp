@@ -146,8 +146,9 @@ void add_time_step(CaseCheck& check, const BuiltCase& built) {
   check.time_step = step.length, check.time_step_reason = step.reason;
   const double last = built.resolved.output.last_time(),
                flows = std::min(last, built.setup.thermal.flow_until);
-  check.steps =
-      std::ceil(flows / check.time_step) + std::ceil((last - flows) / conduction_time_step(built.setup));
+  double cooling = conduction_time_step(built.setup);
+  if (built.setup.numerics.max_time_step > 0) cooling = std::min(cooling, built.setup.numerics.max_time_step);
+  check.steps = std::ceil(flows / check.time_step) + std::ceil((last - flows) / cooling);
 }
 
 // What each speed asks for and costs.

@@ -70,7 +70,7 @@ void add_thick_walls(const SimulationSetup& s, const std::vector<ThinnestWall>& 
   const double last = s.end_time - s.start_time;
   for (std::size_t k = 0; k < walls.size() && k < s.bodies.size(); ++k) {
     const WallThermal& wall = s.bodies[k].thermal;
-    if (wall.kind != WallHeat::semi_infinite || walls[k].across >= ThinnestWall::thick) continue;
+    if (wall.kind != WallHeat::semi_infinite || walls[k].name.empty()) continue;
     const double thickness = walls[k].across * s.spacing;
     const double diffusivity = wall.conductivity / (wall.density * wall.heat_capacity);
     const ThickWallHeat heat{s.bodies[k].name, thickness, thickness * thickness / (4 * diffusivity)};
@@ -134,8 +134,10 @@ std::string to_text(const HeatCheck& check) {
   if (!check.on) return "";
   std::string text = format("heat             conduction is stable up to steps of %.3g s\n", check.time_step);
   if (std::isfinite(check.flow_until))
-    text += format("                 such steps are taken from %.6g s on, when nothing moves any more\n",
-                   check.flow_until);
+    text += format(
+        "                 such steps, or max_time_step, are taken from %.6g s on, when nothing moves any "
+        "more\n",
+        check.flow_until);
   for (const FluidHeat& f : check.fluids) {
     text += format("heat of %-8s alpha %.3g m^2/s, Biot of half a spacing %s, Stefan %s, Nahme %s\n",
                    f.name.c_str(), f.diffusivity, number(f.half_cell_biot).c_str(), number(f.stefan).c_str(),

@@ -104,17 +104,16 @@ class WallLook {
  public:
   explicit WallLook(const Case& c) : solids_(c), spacing_(c.spacing) {}
 
-  // [spacings] up to the other side, or thick.
-  double thickness(Vec3d foot, Vec3d normal, std::size_t body) const {
+  // [spacings] up to the other side, or `most`.
+  double thickness(Vec3d foot, Vec3d normal, std::size_t body, double most) const {
     const double stride = 0.05 * spacing_, touch = 1e-3 * spacing_;
-    for (double t = stride; t < ThinnestWall::thick * spacing_;) {
+    for (double t = stride; t < most * spacing_;) {
       const Vec3d q = foot - t * normal;
       const double d = solids_.distance_to_company(q, body);
-      if (d > touch)
-        return t - d > touch && faces_back(q, normal, body) ? (t - d) / spacing_ : ThinnestWall::thick;
+      if (d > touch) return t - d > touch && faces_back(q, normal, body) ? (t - d) / spacing_ : most;
       t += std::max(-d, stride);
     }
-    return ThinnestWall::thick;
+    return most;
   }
   bool open_before(Vec3d foot, Vec3d normal, std::size_t body) const {
     return solids_.distance_to_company(foot + (1e-3 * spacing_) * normal, body) >= 0;
@@ -164,9 +163,25 @@ std::vector<FluidPiece> fluid_pieces(const SimulationSetup& setup, Vec3d origin)
   return pieces;
 }
 
+namespace {
+
+// How far is looked [spacings]; through a wall that takes up heat as far as that gets in the run.
+double depth_of_interest(const SimulationSetup& setup, std::size_t body) {
+  const WallThermal& wall = setup.bodies[body].thermal;
+  if (wall.kind != WallHeat::semi_infinite) return ThinnestWall::thick;
+  constexpr double most = 5000;
+  const double diffusivity = wall.conductivity / (wall.density * wall.heat_capacity);
+  const double way = 2 * std::sqrt(diffusivity * (setup.end_time - setup.start_time));
+  return std::min(most, std::max(ThinnestWall::thick, way / setup.spacing));
+}
+
+}  // namespace
+
 std::vector<ThinnestWall> wall_thicknesses(const Case& c, const SimulationSetup& setup) {
   const WallParticles& walls = setup.walls;
   std::vector<ThinnestWall> thinnest(c.walls.size());
+  for (std::size_t k = 0; k < thinnest.size() && k < setup.bodies.size(); ++k)
+    thinnest[k].across = depth_of_interest(setup, k);
   if (c.walls.empty() || walls.normal.size() != walls.position.size()) return thinnest;
   const WallLook look(c);
   constexpr std::size_t looked_at = 20000;
@@ -176,7 +191,7 @@ std::vector<ThinnestWall> wall_thicknesses(const Case& c, const SimulationSetup&
     if (body >= c.walls.size() || walls.depth[w] >= setup.spacing) continue;
     const Vec3d foot = walls.position[w] + walls.depth[w] * walls.normal[w];
     if (!look.open_before(foot, walls.normal[w], body)) continue;
-    const double across = look.thickness(foot, walls.normal[w], body);
+    const double across = look.thickness(foot, walls.normal[w], body, depth_of_interest(setup, body));
     if (across < thinnest[body].across - 1e-3) thinnest[body] = {c.walls[body].name, across, foot};
   }
   return thinnest;

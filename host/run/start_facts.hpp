@@ -22,12 +22,13 @@ std::vector<FluidPiece> fluid_pieces(const SimulationSetup& setup, Vec3d origin)
 // The wall that is thinnest behind its surface, along the normal; where none ends within a few spacings,
 // thick.
 struct ThinnestWall {
-  static constexpr double thick = 20;  // spacings, as far as is looked
+  static constexpr double thick = 20;  // spacings, as far as is looked for what flows
   std::string name;
   double across = thick;  // spacings
   Vec3d place;            // [m]
 };
-// Where each wall of the case is thinnest; `name` is empty where it is thick.
+// Where each wall of the case is thinnest; `name` is empty where it is thick, or thicker than heat goes in the
+// run where it takes up any.
 std::vector<ThinnestWall> wall_thicknesses(const Case& c, const SimulationSetup& setup);
 ThinnestWall thinnest_of(const std::vector<ThinnestWall>& walls);
 

@@ -212,7 +212,11 @@ TEST(CaseThermal, CheckCountsTheStepsOfHeatAlone) {
   const CaseCheck alone = check("0"), both = check("1");
   EXPECT_EQ(alone.steps, std::ceil(3600 / alone.heat.time_step));
   EXPECT_EQ(both.steps, std::ceil(1 / both.time_step) + std::ceil(3599 / both.heat.time_step));
-  EXPECT_THAT(to_text(both), HasSubstr("such steps are taken from 1 s on, when nothing moves any more"));
+  EXPECT_THAT(to_text(both),
+              HasSubstr("such steps, or max_time_step, are taken from 1 s on, when nothing moves any more"));
+  const CaseCheck shorter = check_case(build_setup(parse_case(
+      hot, "h.toml", {"output.end_time=3600", "thermal.flow_until=0", "numerics.max_time_step=0.01"})));
+  EXPECT_EQ(shorter.steps, 360000);
   const Case c = parse_case(hot, "h.toml", {"thermal.flow_until=7"});
   EXPECT_EQ(parse_case(to_toml(c), "again.toml").thermal.flow_until, 7);
 }
@@ -227,6 +231,18 @@ TEST(CaseThermal, CheckTellsWhenAThickWallIsFeltThrough) {
   EXPECT_THAT(to_text(check("10")), HasSubstr("'runner', 0.04 m thick, is felt through after 43.2 s"));
   EXPECT_THAT(check("10").warnings, testing::Not(testing::Contains(HasSubstr("semi_infinite"))));
   EXPECT_THAT(check("60").warnings, testing::Contains(HasSubstr("felt through from 43.2 s on")));
+}
+
+// However fine the spacing is.
+TEST(CaseThermal, CheckLooksThroughAWallOfManySpacings) {
+  const auto check = [](const std::string& end) {
+    return check_case(
+        build_setup(parse_case(hot, "h.toml",
+                               {"output.end_time=" + end, "resolution.spacing=0.00125",
+                                "region.0.shapes=[{shape=\"box\", min=[0,0,0], max=[0.01,0.01,0.01]}]"})));
+  };
+  EXPECT_THAT(check("60").warnings, testing::Contains(HasSubstr("felt through from 43.2 s on")));
+  EXPECT_THAT(check("10").warnings, testing::Not(testing::Contains(HasSubstr("semi_infinite"))));
 }
 
 TEST(CaseThermal, CheckTellsOfAnInletOfSolidFluid) {

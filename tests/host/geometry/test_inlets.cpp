@@ -238,18 +238,21 @@ TEST(InletFaces, APatchInAnotherUnitIsToldItsScale) {
   EXPECT_THAT(patch(100), HasSubstr("with scale = 0.01 it would lie in it; was it drawn in cm?"));
 }
 
-// At the same time; one after the other is right.
+// One after the other too, and back to back: the bodies are there all the time.
 TEST(InletFaces, TwoAtOnePlaceAreRefused) {
   InletSpec in = inlet(InletFace::disc, {20, 20, 20}, {0, 0, -1});
   in.radius = 4;
   Case c = with(in);
   c.inlets.push_back(in);
   c.inlets[1].name = "other";
-  EXPECT_THAT(refusal(c),
-              HasSubstr("key 'inlet.1': feeds where inlet 'spout' does: allowed: faces that do not meet"));
+  const auto refused =
+      HasSubstr("key 'inlet.1': its body, the six spacings behind its face, meets that of inlet 'spout'");
+  EXPECT_THAT(refusal(c), refused);
   c.inlets[0].stop = c.inlets[1].start = 3;
-  EXPECT_EQ(refusal(c), "none");
-  c.inlets[0].stop = WallMotion::never, c.inlets[1].center.x = 30;
+  EXPECT_THAT(refusal(c), refused);
+  c.inlets[0].stop = WallMotion::never, c.inlets[1].center.z = 22;
+  EXPECT_THAT(refusal(c), refused);
+  c.inlets[1].center.z = 20, c.inlets[1].center.x = 30;
   EXPECT_EQ(refusal(c), "none");
 }
 

@@ -1,8 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "host/case/case.hpp"
+#include "host/geometry/inlets.hpp"
+#include "host/geometry/setup_builder.hpp"
 #include "host/measures/measure_front.hpp"
 #include "host/measures/profiles.hpp"
 #include "host/temp_folder.hpp"
@@ -233,6 +237,25 @@ TEST(VolumeMeasure, GivesTheVolumeInTheBox) {
   Measures plane(one_measure(MeasureType::volume, "pool"), one_of_each(2));
   EXPECT_THAT(plane.columns(), testing::ElementsAre("pool_m2"));
   EXPECT_DOUBLE_EQ(plane.update(0, flow_totals(30, 0, 0), no_snapshot)[0], 30e-4);
+}
+
+TEST(Measures, OfAFrontCountWhatInletsBringByTheEndWhereverARunPauses) {
+  Case c = load_case(std::string(SLAGFLOW_SOURCE_DIR) + "/cases/howto/overflow.toml");
+  c.measures.push_back({});
+  c.measures.back().name = "arrival", c.measures.back().type = MeasureType::front;
+  c.measures.back().direction = {0, 1}, c.measures.back().position = -10;
+  const SimulationSetup setup = build_setup(c).setup;
+  Simulation simulation(setup);
+  Measures whole(c, setup);
+  c.output.until = 0.1 * c.output.end_time;
+  Measures part(c, setup);
+  const std::vector<std::string> names = whole.columns();
+  const auto passed =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), "arrival_passed") - names.begin());
+  const double share = whole.update(0, simulation.totals(), no_snapshot).at(passed);
+  EXPECT_GT(share, 0);
+  EXPECT_EQ(part.update(0, simulation.totals(), no_snapshot).at(passed), share);
+  EXPECT_GT(fed_particles(setup, c.output.end_time), 2 * fed_particles(setup, c.output.until));
 }
 
 TEST(Measures, GoOnFromTheirState) {
