@@ -122,7 +122,7 @@ struct RowStore {
 
   // Takes new room for row i, for n entries and `spare` registers.
   Offset take(Index i, Index n, Index spare) const {
-    const Offset wanted = whole_lanes(n) + spare * lane_count;
+    const Offset wanted = whole_lanes(n) + static_cast<Offset>(spare) * lane_count;
     row[i] = reserve(used, wanted);
     room[i] = registers(static_cast<Index>(wanted));
     return row[i];
@@ -236,7 +236,7 @@ struct RefillCell {
   Index* place(Index i, Index n) const {
     constexpr Index spare = 1;
     store.length[i] = n;
-    if (whole_lanes(n) > store.room[i] * lane_count) store.take(i, n, spare);
+    if (whole_lanes(n) > static_cast<Offset>(store.room[i]) * lane_count) store.take(i, n, spare);
     return store.holds(store.row[i], n) ? &store.entry[store.row[i]] : nullptr;
   }
 };
