@@ -133,7 +133,7 @@ ListAge::ListAge(Context& context, Renewal renewal)
 void ListAge::begin(const SourceView& fluid, const SourceView& walls) {
   const Index cells = fluid.grid.cells();
   opened_.upload({0});
-  displacement_.resize(with_room(cells)), wall_displacement_.resize(with_room(cells));
+  displacement_.resize(with_room(cells));
   wear_.resize(cells), wall_wear_.resize(cells), worn_.resize(cells), walls_worn_.resize(cells);
   slagflow::launch(context_, "no wear", cells, NoWear{wear_.span(), wall_wear_.span()});
   restore(fluid, walls);
@@ -159,6 +159,7 @@ void ListAge::launch(const Particles& fluid, const Particles& walls, const ListG
   const CellGrid& grid = fluid.now.grid;
   const Index cells = grid.cells();
   const bool renewed = renewal_ == Renewal::by_cell, walls_move = walls.largest_displacement > 0;
+  if (walls_move) wall_displacement_.resize(with_room(cells));
   const Span<Quad> moved = displacement_.span(),
                    walls_moved = walls_move ? wall_displacement_.span() : Span<Quad>{};
   slagflow::launch(context_, "open lists", 1, IfOpen<Open>{{opened_.span().data}, gate});

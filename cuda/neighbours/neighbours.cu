@@ -152,11 +152,12 @@ void NeighbourList::search_and_store(const Search<Box>& search) {
     store_slices(search);
 }
 
-// On a CPU: room for rows that outgrow theirs, a sixteenth.
+// On a CPU: room for rows that outgrow theirs, a sixteenth or some.
 void NeighbourList::make_room() {
   const Offset used = used_.span()[0];
   if (used <= entry_.size()) return;
-  const Offset wanted = used + used / (entry_.size() > filled_ ? 4 : 16);
+  constexpr Offset least = 1 << 16;
+  const Offset wanted = used + larger(used / 16, least);
   entry_.reserve(wanted);
   entry_.resize(wanted);
 }

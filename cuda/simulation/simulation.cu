@@ -172,7 +172,7 @@ void Simulation::State::rebuild() {
   if (fed) extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   list_places.copy_from(fluid.place);
   rectangles.start(fluid);
-  list_age.begin(ordering.fluid_sources(fluid), ordering.wall_sources(wall));
+  list_age.begin(ordering.fluid_sources(fluid), moving_wall_sources());
   list_time = time;
   displacement = lists_worn = 0;
   last.reset();
@@ -229,6 +229,13 @@ void Simulation::State::build_lists() {
   }
 }
 
+// Without places where no wall ever moves.
+SourceView Simulation::State::moving_wall_sources() const {
+  SourceView sources = ordering.wall_sources(wall);
+  if (!walls.any()) sources.place = {};
+  return sources;
+}
+
 ListAge::Particles Simulation::State::fluid_for_age() const {
   return {ordering.fluid_sources(fluid), displacement, wall_list.near_sources()};
 }
@@ -268,13 +275,13 @@ void Simulation::State::rebuild_lists_as_saved() {
   fluid.place.swap(list_places);
   ordering.find_cells(fluid);
   build_lists();
-  list_age.restore(ordering.fluid_sources(fluid), ordering.wall_sources(wall));
+  list_age.restore(ordering.fluid_sources(fluid), moving_wall_sources());
   fluid.place.swap(list_places);
   if (exact_yield())
     viscous.exact_yield().take_restored({fluid_list, wall_list, fluid.id, wall.id}, next_id());
   if (!list_age.opened()) return;
   if (walls.any()) place_walls();
-  list_age.restore(ordering.fluid_sources(fluid), ordering.wall_sources(wall));
+  list_age.restore(ordering.fluid_sources(fluid), moving_wall_sources());
   if (renewal(setup) == Renewal::of_all) return;
   const auto particles = listed();
   for (std::size_t k = 0; k < particles.size(); ++k)

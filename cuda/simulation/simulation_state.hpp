@@ -100,6 +100,7 @@ struct Simulation::State {
   std::array<NeighbourList*, 3> lists();
   std::array<ListedParticles, 3> listed() const;  // what each of them is made of
   void build_lists();
+  SourceView moving_wall_sources() const;
   ListAge::Particles fluid_for_age() const;
   ListAge::Particles walls_for_age() const;
   void renew_lists(const ListGate&);
