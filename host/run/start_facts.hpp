@@ -27,8 +27,8 @@ struct ThinnestWall {
   double across = thick;  // spacings
   Vec3d place;            // [m]
 };
-// Where each wall of the case is thinnest; `name` is empty where it is thick, or thicker than heat goes in the
-// run where it takes up any.
+// Where each wall of the case is thinnest; `name` is empty where it is thick, or thicker than heat goes in
+// the run where it takes up any.
 std::vector<ThinnestWall> wall_thicknesses(const Case& c, const SimulationSetup& setup);
 ThinnestWall thinnest_of(const std::vector<ThinnestWall>& walls);
 
