@@ -188,7 +188,7 @@ struct FillPiece {
     const Offset begin = store.take(i, n, 0);
     store.length[i] = n;
     rows.first = i + 1;
-    if (store.holds(begin, n))
+    if (n > 0 && store.holds(begin, n))
       group.find_alone(i, cell, &store.entry[begin], &store.entry[begin] + whole_lanes(n));
   }
 
@@ -232,12 +232,12 @@ struct RefillCell {
   }
 
  private:
-  // Null where there is no room yet.
+  // Null where there is nothing to store, or no room yet.
   Index* place(Index i, Index n) const {
     constexpr Index spare = 1;
     store.length[i] = n;
     if (whole_lanes(n) > static_cast<Offset>(store.room[i]) * lane_count) store.take(i, n, spare);
-    return store.holds(store.row[i], n) ? &store.entry[store.row[i]] : nullptr;
+    return n > 0 && store.holds(store.row[i], n) ? &store.entry[store.row[i]] : nullptr;
   }
 };
 
