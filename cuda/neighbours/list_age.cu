@@ -158,7 +158,7 @@ void ListAge::launch(const Particles& fluid, const Particles& walls, const ListG
                      StepRecord* record) {
   const CellGrid& grid = fluid.now.grid;
   const Index cells = grid.cells();
-  const bool renewed = renewal_ == Renewal::by_cell, walls_move = walls.largest_displacement > 0;
+  const bool renewed = renewal_ == Renewal::by_cell, walls_move = walls_before_.size() > 0;
   if (walls_move) wall_displacement_.resize(with_room(cells));
   const Span<Quad> moved = displacement_.span(),
                    walls_moved = walls_move ? wall_displacement_.span() : Span<Quad>{};
