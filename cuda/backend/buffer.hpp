@@ -84,7 +84,6 @@ class Buffer {
       data_ = static_cast<T*>(context_->allocate(bytes(wanted), name_));
       capacity_ = wanted;
     }
-    if (size != size_) context_->arrange_anew();
     size_ = size;
   }
   static std::size_t bytes(Offset count) { return static_cast<std::size_t>(count) * sizeof(T); }

@@ -51,9 +51,12 @@ class Context {
   void repeat_while(const std::int32_t* flag, const std::function<void()>& body);
 
   const DeviceCounts& counts() const { return counts_; }
+  bool recording() const { return recording_; }
   void count_launch() { ++(recording_ ? recorded_launches_ : counts_.launches); }
 
-  // Changes whenever memory is taken or given back, or a buffer gets another size or place.
+  // Changes whenever memory is taken or given back, buffers change places, or arrange_anew() tells that other
+  // launches are needed. The size of a buffer that stays within its memory is no part of it: what is recorded
+  // takes the number of its elements from Rows, or from what never changes.
   std::uint64_t generation() const { return generation_; }
   void arrange_anew() { ++generation_; }
 

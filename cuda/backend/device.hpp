@@ -20,6 +20,7 @@ struct DeviceCounts {
   std::int64_t launches = 0;        // of kernels, one by one
   std::int64_t graph_launches = 0;  // of graphs, and the kernels in them
   std::int64_t graph_kernels = 0;
+  std::int64_t graph_recordings = 0;
   std::int64_t allocations = 0;  // of memory
 };
 

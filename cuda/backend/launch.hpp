@@ -7,6 +7,7 @@
 
 #include "backend/context.hpp"
 #include "backend/platform.hpp"
+#include "backend/rows.hpp"
 
 #if defined(__CUDACC__)
 #include "backend/check.hpp"
@@ -32,15 +33,21 @@ HOST_DEVICE bool is_idle(const Body& body) {
 inline constexpr unsigned block_threads = 128;
 inline unsigned blocks_for(Index n) { return (static_cast<unsigned>(n) + block_threads - 1) / block_threads; }
 
-template <class Body>
-__global__ void run_body(Body body, Index n) {
-  if (is_idle(body)) return;
-  const Offset i = static_cast<Offset>(blockIdx.x) * blockDim.x + threadIdx.x;
-  if (i < n) body(static_cast<Index>(i));
+// What a launch is made for: a recording is to hold for any number of elements that there is room for.
+inline Rows to_launch(const Context& context, Rows n) {
+  return context.recording() && n.live ? Rows{n.room, n.room, n.live} : Rows{n.now};
 }
 
 template <class Body>
-void launch(Context& context, const char* label, Index n, const Body& body) {
+__global__ void run_body(Body body, Rows n) {
+  if (is_idle(body)) return;
+  const Offset i = static_cast<Offset>(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (i < n.on_device()) body(static_cast<Index>(i));
+}
+
+template <class Body>
+void launch(Context& context, const char* label, Rows rows, const Body& body) {
+  const Rows n = to_launch(context, rows);
   if (n <= 0) return;
   context.count_launch();
   run_body<<<blocks_for(n), block_threads, 0, static_cast<cudaStream_t>(context.stream())>>>(body, n);
@@ -60,7 +67,8 @@ struct Grain<Body, std::void_t<decltype(Body::grain)>> {
 };
 
 template <class Body>
-void launch(Context&, const char*, Index n, const Body& body) {
+void launch(Context&, const char*, Rows rows, const Body& body) {
+  const Index n = rows;
   if (is_idle(body)) return;
   constexpr Index grain = Grain<Body>::value;
 #pragma omp parallel for schedule(dynamic, grain) if (n > 2 * grain)

@@ -20,10 +20,10 @@ class LaunchGraph {
 
   // Does what `record` launches. What was recorded the last time is taken again, and `record` not called,
   // where the numbers are the same and the context's generation is; so they must be all that the launches
-  // depend on besides the contents of buffers, and `record` may change nothing else. It may not take memory,
-  // wait, or copy to or from the host, other than by Context::post_to_host(): it throws Error then, with
-  // nothing done.
-  using Numbers = std::array<double, 3>;
+  // depend on besides the contents of buffers and the numbers of Rows, and `record` may change nothing else.
+  // It may not take memory, wait, or copy to or from the host, other than by Context::post_to_host(): it
+  // throws Error then, with nothing done.
+  using Numbers = std::array<double, 4>;
   void run(const Numbers&, const std::function<void()>& record);
 
   // Launches one by one from now on, so that parts of `record` are timed.

@@ -48,6 +48,7 @@ bool LaunchGraph::record_anew(const std::function<void()>& record) {
   context_.recording_ = true;
   context_.recorded_loop_ = false;
   context_.recorded_launches_ = 0;
+  ++context_.counts_.graph_recordings;
   cudaGraph_t graph = nullptr;
   const auto end = [&] {
     context_.recording_ = false;

@@ -54,12 +54,12 @@ __device__ Terms<count> nothing() {
 // Each block leaves its share in `partial`; the one that comes last, by `ticket`, reduces the shares in
 // order.
 template <class Reduction, class Body, class Finish>
-__global__ void run_reduction(Body body, Index n, Finish finish, volatile double* partial, unsigned* ticket) {
+__global__ void run_reduction(Body body, Rows n, Finish finish, volatile double* partial, unsigned* ticket) {
   if (is_idle(body)) return;
   constexpr int count = Body::terms;
   const Offset i = static_cast<Offset>(blockIdx.x) * blockDim.x + threadIdx.x;
   Terms<count> own = nothing<Reduction, count>();
-  if (i < n) own = body(static_cast<Index>(i));
+  if (i < n.on_device()) own = body(static_cast<Index>(i));
   own = across_block<Reduction>(own);
   __shared__ bool last;
   if (threadIdx.x == 0) {
@@ -88,7 +88,9 @@ inline void reserve_reductions(Context& context, Index n, int terms) {
 // Reduces body(i), Terms<Body::terms> each, over i in [0, n), and runs finish(result) once. Where the body is
 // idle, neither runs.
 template <class Reduction, class Body, class Finish>
-void launch_reduction(Context& context, const char* label, Index n, const Body& body, const Finish& finish) {
+void launch_reduction(Context& context, const char* label, Rows rows, const Body& body,
+                      const Finish& finish) {
+  const Rows n = to_launch(context, rows);
   const unsigned blocks = n > 0 ? blocks_for(n) : 1;
   auto* partial =
       static_cast<double*>(context.workspace(static_cast<std::size_t>(blocks) * sizeof(Terms<Body::terms>)));
@@ -119,8 +121,10 @@ inline double reduce(TakeLargest, Context& context, Span<const double> values) {
 }
 
 template <class Reduction, class Body, class Finish>
-void launch_reduction(Context& context, const char* label, Index n, const Body& body, const Finish& finish) {
+void launch_reduction(Context& context, const char* label, Rows rows, const Body& body,
+                      const Finish& finish) {
   if (is_idle(body)) return;
+  const Index n = rows;
   constexpr auto count = static_cast<std::size_t>(Body::terms);
   auto* values =
       static_cast<double*>(context.workspace(static_cast<std::size_t>(n) * count * sizeof(double)));

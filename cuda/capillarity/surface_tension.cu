@@ -248,7 +248,7 @@ void SurfaceTension::reserve(Index count) {
 void SurfaceTension::update(const PairContext& c, Span<const Index> wall_id) {
   if (!on_) return;
   Section timer(context_, "surface tension");
-  const Index n = c.fluid.count;
+  const Rows n = c.fluid.count;
   const Smoothing smoothing(capillary_kernel, static_cast<double>(c.flow.support), c.flow.dimensions);
   const TensionWeight weight(c.flow.support, c.flow.dimensions);
   const auto noise = static_cast<Real>(colour_noise) / c.flow.support;

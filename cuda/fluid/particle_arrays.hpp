@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "backend/buffer.hpp"
+#include "backend/rows.hpp"
 #include "fluid/math.hpp"
 
 namespace slagflow {
@@ -40,12 +41,12 @@ class ParticleArray;
 // As many particles as `count`, in memory for as many as `capacity`.
 class ParticleArrays {
  public:
-  explicit ParticleArrays(Context& c) : context(c) {}
+  explicit ParticleArrays(Context& c) : context(c), live_(c, "number of particles", 1) { count_anew(0); }
   ParticleArrays(const ParticleArrays&) = delete;
   ParticleArrays& operator=(const ParticleArrays&) = delete;
 
   Context& context;
-  Index count = 0;
+  Rows count;
   Index capacity() const { return capacity_; }
 
   // What is there stays, up to the new count. Beyond the capacity that grows by a quarter at least, so that
@@ -70,8 +71,14 @@ class ParticleArrays {
   friend class ParticleArray;
   using Any = std::variant<ParticleArray<Vec3d>*, ParticleArray<Quad>*, ParticleArray<double>*,
                            ParticleArray<float>*, ParticleArray<Index>*, ParticleArray<std::uint8_t>*>;
+  void count_anew(Index n) {
+    live_.upload({n});
+    count = {n, capacity_, live_.span().data};
+  }
+
   std::vector<Any> list_;
   Index capacity_ = 0;
+  Buffer<Index> live_;
 };
 
 template <class T>
@@ -95,7 +102,7 @@ class ParticleArray : public Buffer<T> {
 
 inline void ParticleArrays::resize(Index n) {
   if (n > capacity_) capacity_ = larger(n, capacity_ + capacity_ / 4);
-  count = n;
+  if (n != count || capacity_ != count.room) count_anew(n);
   each([&](auto& array) {
     if (array.absent()) return;
     array.reserve(capacity_);

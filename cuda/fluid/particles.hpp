@@ -85,7 +85,7 @@ struct WallArrays : ParticleArrays {
 };
 
 struct FluidView {
-  Index count = 0;
+  Rows count;
   Span<const Quad> place, motion, by_pressure, state;
   Span<const Real> pressure, contact, hollow;
   Span<const std::uint8_t> fluid;
@@ -93,7 +93,7 @@ struct FluidView {
 };
 
 struct WallView {
-  Index count = 0;
+  Rows count;
   Span<const Quad> place, normal, back, velocity, acceleration, moved;
   Span<const Real> pressure, tension_limit;
   Span<const Index> id;

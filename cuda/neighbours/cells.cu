@@ -3,8 +3,18 @@
 
 namespace slagflow {
 
-CellGrid CellGrid::cover(Vec3d extent, const std::array<bool, 3>& periodic, double least_width) {
-  constexpr double most = 1 << 24;  // cells; a larger domain gets wider cells
+AxisOrder AxisOrder::of(const int (&count)[3]) {
+  int slow = 0;
+  for (int k = 1; k < 3; ++k)
+    if (count[k] >= count[slow]) slow = k;
+  const int first = slow == 0 ? 1 : 0, second = 3 - slow - first;
+  const bool swapped = count[second] > count[first];
+  AxisOrder order;
+  order.axis[0] = swapped ? second : first, order.axis[1] = swapped ? first : second, order.axis[2] = slow;
+  return order;
+}
+
+CellGrid CellGrid::cover(Vec3d extent, const std::array<bool, 3>& periodic, double least_width, double most) {
   CellGrid grid;
   double width = least_width * 1.000001;  // rounding must not push a pair further apart
   auto number = [&](int k) { return std::floor(larger(1.0, extent[k] / width)); };
@@ -14,6 +24,12 @@ CellGrid CellGrid::cover(Vec3d extent, const std::array<bool, 3>& periodic, doub
     grid.periodic[k] = periodic[static_cast<std::size_t>(k)];
     grid.count[k] = static_cast<int>(number(k));
     inverse[k] = static_cast<Real>(grid.count[k] / extent[k]);
+  }
+  grid.order = AxisOrder::of(grid.count);
+  grid.stride = Strides(grid.count, grid.order);
+  for (int k = 0; k < 3; ++k) {
+    const int axis = grid.order.axis[k];
+    grid.lines[k] = {grid.count[axis], grid.stride[axis], inverse[axis], grid.periodic[axis]};
   }
   grid.narrowest = width;
   grid.inverse_width = {inverse[0], inverse[1], inverse[2]};

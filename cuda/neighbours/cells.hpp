@@ -9,6 +9,25 @@
 
 namespace slagflow {
 
+// How cells are numbered: along one axis after the other, the fastest first. The axis with the most cells is
+// the slowest, so that the particles of a slab across it stand in one piece; that with the most of the others
+// is the fastest, for long runs.
+struct AxisOrder {
+  int axis[3] = {0, 1, 2};  // from the fastest to the slowest
+  static AxisOrder of(const int (&count)[3]);
+};
+
+// The steps in the number of a cell to the next along each axis.
+struct Strides {
+  Index along[3] = {1, 1, 1};
+  Strides() = default;
+  Strides(const int (&count)[3], const AxisOrder& order) {
+    Index next = 1;
+    for (const int axis : order.axis) along[axis] = next, next *= count[axis];
+  }
+  HOST_DEVICE Index operator[](int axis) const { return along[axis]; }
+};
+
 // Places outside of the grid belong to its border cells: two places are never fewer cells apart than their
 // distance asks for.
 struct CellGrid {
@@ -16,19 +35,19 @@ struct CellGrid {
   Vec3 inverse_width;    // [1/m]
   double narrowest = 0;  // width of a cell along its narrowest axis [m]
   bool periodic[3] = {false, false, false};
+  AxisOrder order;
+  Strides stride;
 
-  // Cells at least `width` wide over a domain of the given extent [m].
-  static CellGrid cover(Vec3d extent, const std::array<bool, 3>& periodic, double width);
+  // Cells at least `width` wide over a domain of the given extent [m]; wider, where there were more than
+  // `most` of them.
+  static constexpr double usual_most = 1 << 24;
+  static CellGrid cover(Vec3d extent, const std::array<bool, 3>& periodic, double width,
+                        double most = usual_most);
 
   HOST_DEVICE Index cells() const { return count[0] * count[1] * count[2]; }
-  HOST_DEVICE int along(int axis, Real coordinate) const {
-    const int n = count[axis];
-    Real scaled = std::floor(coordinate * inverse_width[axis]);
-    if (periodic[axis]) scaled -= Real(n) * std::floor(scaled / Real(n));
-    return scaled > 0 ? (scaled < Real(n) ? smaller(static_cast<int>(scaled), n - 1) : n - 1) : 0;
-  }
   HOST_DEVICE Index cell_of(Vec3 place) const {
-    return (along(2, place.z) * count[1] + along(1, place.y)) * count[0] + along(0, place.x);
+    return along(lines[2], place[order.axis[2]]) * lines[2].stride +
+           along(lines[1], place[order.axis[1]]) * lines[1].stride + along(lines[0], place[order.axis[0]]);
   }
 
   // Calls visit(first_cell, last_cell) for runs of cells that follow each other in memory and together hold
@@ -36,98 +55,112 @@ struct CellGrid {
   template <class Visit>
   HOST_DEVICE void for_cells_within(Vec3 place, Real reach, Visit visit) const {
     const Real wide = reach * Real(1.001);  // rounding must not lose a place
-    const Around y = around(1, place.y, wide), z = around(2, place.z, wide);
-    for_line(2, z, [&](int k, int cell_z) {
-      const Real beyond_z = square(wide) - square(gap(2, k, place.z, z));
-      for_line(1, y, [&](int j, int cell_y) {
-        const Real beyond = beyond_z - square(gap(1, j, place.y, y));
+    const Vec3 at{place[order.axis[0]], place[order.axis[1]], place[order.axis[2]]};
+    const Around rows = around(lines[1], at.y, wide), planes = around(lines[2], at.z, wide);
+    for_line(lines[2], planes, [&](int k, int plane) {
+      const Real beyond_plane = square(wide) - square(gap(lines[2], k, at.z, planes));
+      for_line(lines[1], rows, [&](int j, int row) {
+        const Real beyond = beyond_plane - square(gap(lines[1], j, at.y, rows));
         if (beyond <= 0) return;
-        visit_run((cell_z * count[1] + cell_y) * count[0], around(0, place.x, std::sqrt(beyond)), visit);
+        visit_run(plane * lines[2].stride + row * lines[1].stride, around(lines[0], at.x, std::sqrt(beyond)),
+                  visit);
       });
     });
   }
 
-  // Calls visit(other) for the cells up to `range` away along one axis, `cell` included.
+  // Calls visit(other) for the cells up to `range` away along one axis, in the order of speed, `cell`
+  // included.
   template <class Visit>
-  HOST_DEVICE void for_line_around(Index cell, int axis, int range, Visit visit) const {
-    const Index step = axis == 0 ? 1 : (axis == 1 ? count[0] : count[0] * count[1]);
-    const int c = cell / step % count[axis];
-    const Around line = around(axis, c, range);
-    for (int k = line.first; k <= line.last; ++k) visit(cell + (wrapped(axis, k) - c) * step);
+  HOST_DEVICE void for_line_around(Index cell, int speed, int range, Visit visit) const {
+    const Line& line = lines[speed];
+    const int c = cell / line.stride % line.count;
+    const Around all = around(line, c, range);
+    for (int k = all.first; k <= all.last; ++k) visit(cell + (wrapped(line, k) - c) * line.stride);
   }
 
   // Calls visit(first_cell, last_cell) for the cells up to `range` away from `cell` along each axis, itself
   // included, each once, in runs that follow each other in memory, in ascending order.
   template <class Visit>
   HOST_DEVICE void for_runs_around(Index cell, int range, Visit visit) const {
-    const Around x = around(0, cell % count[0], range);
-    for_rows_around(cell / count[0] % count[1], cell / count[0] / count[1], range,
-                    [&](Index row) { visit_run(row, x, visit); });
+    const int c[3] = {cell % lines[0].count, cell / lines[1].stride % lines[1].count, cell / lines[2].stride};
+    const Around run = around(lines[0], c[0], range), rows = around(lines[1], c[1], range);
+    for_line(lines[2], around(lines[2], c[2], range), [&](int, int plane) {
+      for_line(lines[1], rows,
+               [&](int, int row) { visit_run(plane * lines[2].stride + row * lines[1].stride, run, visit); });
+    });
   }
 
+  HOST_DEVICE int step_along(Index cell, int axis) const { return cell / stride[axis] % count[axis]; }
+
  private:
+  // The cells along an axis.
+  struct Line {
+    int count = 1;
+    Index stride = 1;
+    Real inverse_width = 0;  // [1/m]
+    bool periodic = false;
+  };
+  Line lines[3];  // from the fastest axis to the slowest
+
   struct Around {
     int first, last;  // beyond the ends on a periodic axis only
   };
 
-  HOST_DEVICE Around around(int axis, int c, int range) const {
-    const int n = count[axis];
-    if (!periodic[axis]) return {larger(c - range, 0), smaller(c + range, n - 1)};
-    if (2 * range + 1 >= n) return {0, n - 1};
+  HOST_DEVICE static Around around(const Line& line, int c, int range) {
+    if (!line.periodic) return {larger(c - range, 0), smaller(c + range, line.count - 1)};
+    if (2 * range + 1 >= line.count) return {0, line.count - 1};
     return {c - range, c + range};
   }
 
   // The cells along an axis that hold places closer than `reach` to a coordinate. On a periodic axis they go
   // on beyond the ends, from the coordinate as it is.
-  HOST_DEVICE Around around(int axis, Real coordinate, Real reach) const {
-    if (!periodic[axis]) return {along(axis, coordinate - reach), along(axis, coordinate + reach)};
-    const int first = static_cast<int>(std::floor((coordinate - reach) * inverse_width[axis]));
-    const int last = static_cast<int>(std::floor((coordinate + reach) * inverse_width[axis]));
-    if (last - first + 1 >= count[axis]) return {0, count[axis] - 1};
+  HOST_DEVICE static Around around(const Line& line, Real coordinate, Real reach) {
+    if (!line.periodic) return {along(line, coordinate - reach), along(line, coordinate + reach)};
+    const int first = static_cast<int>(std::floor((coordinate - reach) * line.inverse_width));
+    const int last = static_cast<int>(std::floor((coordinate + reach) * line.inverse_width));
+    if (last - first + 1 >= line.count) return {0, line.count - 1};
     return {first, last};
+  }
+
+  HOST_DEVICE static int along(const Line& line, Real coordinate) {
+    const auto n = static_cast<Real>(line.count);
+    Real scaled = std::floor(coordinate * line.inverse_width);
+    if (line.periodic) scaled -= n * std::floor(scaled / n);
+    return scaled > 0 ? (scaled < n ? smaller(static_cast<int>(scaled), line.count - 1) : line.count - 1) : 0;
   }
 
   // Least distance of a coordinate from the places in cell c along an axis [m]; 0 where the cells of `all`
   // come once around a periodic axis. Border cells have no outer end.
-  HOST_DEVICE Real gap(int axis, int c, Real coordinate, Around all) const {
-    const bool ring = periodic[axis];
-    if (ring && all.last - all.first + 1 == count[axis]) return 0;
-    const Real scaled = coordinate * inverse_width[axis];
-    const Real below = ring || c > 0 ? static_cast<Real>(c) - scaled : Real(0);
-    const Real above = ring || c < count[axis] - 1 ? scaled - static_cast<Real>(c + 1) : Real(0);
-    return larger(Real(0), larger(below, above)) / inverse_width[axis];
+  HOST_DEVICE static Real gap(const Line& line, int c, Real coordinate, Around all) {
+    if (line.periodic && all.last - all.first + 1 == line.count) return 0;
+    const Real scaled = coordinate * line.inverse_width;
+    const Real below = line.periodic || c > 0 ? static_cast<Real>(c) - scaled : Real(0);
+    const Real above = line.periodic || c < line.count - 1 ? scaled - static_cast<Real>(c + 1) : Real(0);
+    return larger(Real(0), larger(below, above)) / line.inverse_width;
   }
 
-  HOST_DEVICE int wrapped(int axis, int c) const {
-    const int n = count[axis];
+  HOST_DEVICE static int wrapped(const Line& line, int c) {
+    const int n = line.count;
     return c < 0 ? (c % n + n) % n : (c >= n ? c % n : c);
   }
 
   // Calls visit(c, cell) for the cells along an axis, in ascending order: c goes on beyond the ends of a
   // periodic axis, `cell` is the one it comes round to.
   template <class Visit>
-  HOST_DEVICE void for_line(int axis, Around line, Visit visit) const {
-    const int n = count[axis];
-    const int below = smaller(line.last, -1), above = larger(line.first, n);  // what comes round
-    for (int c = above; c <= line.last; ++c) visit(c, wrapped(axis, c));
-    for (int c = larger(line.first, 0); c <= smaller(line.last, n - 1); ++c) visit(c, c);
-    for (int c = line.first; c <= below; ++c) visit(c, wrapped(axis, c));
+  HOST_DEVICE static void for_line(const Line& line, Around all, Visit visit) {
+    const int n = line.count;
+    const int below = smaller(all.last, -1), above = larger(all.first, n);  // what comes round
+    for (int c = above; c <= all.last; ++c) visit(c, wrapped(line, c));
+    for (int c = larger(all.first, 0); c <= smaller(all.last, n - 1); ++c) visit(c, c);
+    for (int c = all.first; c <= below; ++c) visit(c, wrapped(line, c));
   }
 
-  // Calls visit(row) with the first cell of each row in x.
+  // Along the fastest axis, from the first cell of a line.
   template <class Visit>
-  HOST_DEVICE void for_rows_around(int cy, int cz, int range, Visit visit) const {
-    const Around y = around(1, cy, range), z = around(2, cz, range);
-    for_line(2, z, [&](int, int cell_z) {
-      for_line(1, y, [&](int, int cell_y) { visit((cell_z * count[1] + cell_y) * count[0]); });
-    });
-  }
-
-  template <class Visit>
-  HOST_DEVICE void visit_run(Index row, Around x, Visit visit) const {
-    const int n = count[0], first = wrapped(0, x.first), last = first + x.last - x.first;
-    if (last >= n) visit(row, row + last - n);
-    visit(row + first, row + smaller(last, n - 1));
+  HOST_DEVICE void visit_run(Index line, Around run, Visit visit) const {
+    const int n = lines[0].count, first = wrapped(lines[0], run.first), last = first + run.last - run.first;
+    if (last >= n) visit(line, line + last - n);
+    visit(line + first, line + smaller(last, n - 1));
   }
 };
 

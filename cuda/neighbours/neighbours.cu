@@ -135,11 +135,11 @@ void NeighbourList::build(const SourceView& sources, Span<const Quad> targets, c
 void NeighbourList::mark_occupied(const CellGrid& grid, Span<const Index> cell_start) {
   const Index cells = grid.cells();
   occupied_.resize(cells), spare_.resize(cells);
-  launch(context_, "cells with sources", cells, MarkSources{cell_start, occupied_.span()});
+  Span<std::uint8_t> from = spare_.span(), to = occupied_.span();  // three turns end in the right one
+  launch(context_, "cells with sources", cells, MarkSources{cell_start, from});
   for (int axis = 0; axis < 3; ++axis) {
-    launch(context_, "cells near sources", cells,
-           SpreadMarks{grid, axis, cells_moved, occupied_.span(), spare_.span()});
-    occupied_.swap(spare_);
+    launch(context_, "cells near sources", cells, SpreadMarks{grid, axis, cells_moved, from, to});
+    std::swap(from, to);
   }
 }
 
@@ -221,7 +221,7 @@ void NeighbourList::renew_in(const Box& box, const ListedParticles& particles, c
   } else {
     const RenewRow<Box> body{search(box, particles), worn.cells, slice_.span(), length_.span(),
                              entry_.span()};
-    launch_reduction<TakeLargest>(context_, "renew neighbours", static_cast<Index>(particles.targets.size),
+    launch_reduction<TakeLargest>(context_, "renew neighbours", particles.count,
                                   IfOpen<RenewRow<Box>>{body, worn.gate}, KeepOverflow{worn.record});
   }
 }

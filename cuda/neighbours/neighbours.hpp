@@ -3,6 +3,7 @@
 
 #include "backend/buffer.hpp"
 #include "backend/lanes.hpp"
+#include "backend/rows.hpp"
 #include "fluid/math.hpp"
 #include "fluid/params.hpp"
 #include "neighbours/cells.hpp"
@@ -46,6 +47,7 @@ enum class Pairs { self, other };
 struct ListedParticles {
   SourceView sources;
   Span<const Quad> targets;
+  Rows count;                      // of the targets
   Span<const Index> target_start;  // first target of each cell, sorted as the sources are
   PeriodicBox box;
   Real reach;

@@ -120,7 +120,11 @@ void Ordering::reorder(const ParticleArrays& arrays, Index count) {
     auto& spare = std::get<Buffer<T>>(spare_);
     spare.resize(values.size());
     launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
-    values.swap(spare);
+    if (sort_needs_scratch)  // recorded launches know the array by its place
+      context_.copy_on_device(values.span().data, spare.span().data,
+                              static_cast<std::size_t>(count) * sizeof(T));
+    else
+      values.swap(spare);
   });
 }
 

@@ -24,7 +24,11 @@ CellGrid cover_domain(const SimulationSetup& s) {
       throw InputError("domain: the extent along periodic axis " + std::string(1, "xyz"[k]) + " is " +
                        std::to_string(extent(s)[k]) + " m; allowed: at least " + std::to_string(least) +
                        " m, twice the reach of the neighbour list");
-  return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width);
+  // Of many particles cells may be many, too; empty ones take time and memory.
+  constexpr double a_particle = 8, numbered = 2e9;
+  const auto particles = static_cast<double>(s.particles.position.size() + s.walls.position.size());
+  const double most = smaller(numbered, larger(CellGrid::usual_most, a_particle * particles));
+  return CellGrid::cover(extent(s), s.domain.periodic, list_reach(s).width, most);
 }
 
 std::vector<OutletBox> outlet_boxes(const SimulationSetup& s) {
@@ -215,9 +219,9 @@ std::array<ListedParticles, 3> Simulation::State::listed() const {
   const auto wall_reach = static_cast<Real>(reach.support + reach.wall_skin);
   const SourceView from_fluid = ordering.fluid_sources(fluid), from_walls = ordering.wall_sources(wall);
   const Span<const Quad> places = fluid.place.span(), wall_places = wall.place.span();
-  return {{{from_fluid, places, from_fluid.cell_start, box, fluid_reach, Pairs::self},
-           {from_walls, places, from_fluid.cell_start, box, wall_reach, Pairs::other},
-           {from_fluid, wall_places, from_walls.cell_start, box, wall_reach, Pairs::other}}};
+  return {{{from_fluid, places, fluid.count, from_fluid.cell_start, box, fluid_reach, Pairs::self},
+           {from_walls, places, fluid.count, from_fluid.cell_start, box, wall_reach, Pairs::other},
+           {from_fluid, wall_places, wall.count, from_walls.cell_start, box, wall_reach, Pairs::other}}};
 }
 
 void Simulation::State::build_lists() {

@@ -124,6 +124,7 @@ struct Simulation::State {
   double velocity_step() const;
   ViscousStep::Step viscous_step();
   void reserve_step();
+  double levels_recorded() const;
   void launch_step();
   RowCells row_cells() const;
   SolveResult finish_solve(const StepRecord&);

@@ -60,7 +60,7 @@ StepRecord Simulation::State::solve_and_move() {
   if (exact_yield())  // most of whose launches come after the first look
     launch_step();
   else
-    step_graph.run({dt, last_dt, solve_step.kick}, [this] { launch_step(); });
+    step_graph.run({dt, last_dt, solve_step.kick, levels_recorded()}, [this] { launch_step(); });
   const StepRecord begun = viscous.read_posted();
   solve(begun);
   if (begun.solve.converged) return begun;
@@ -68,11 +68,16 @@ StepRecord Simulation::State::solve_and_move() {
   return viscous.read();
 }
 
+// What tells the levels of multigrid that are part of the step's recording from others; 0: none are.
+double Simulation::State::levels_recorded() const {
+  return viscous.goes_on_with_levels(row_cells()) ? static_cast<double>(arrangement) : 0;
+}
+
 // What is recorded may not take memory.
 void Simulation::State::reserve_step() {
   constexpr int most_terms = 5;
   const CellGrid& grid = ordering.fluid_sources(fluid).grid;
-  reserve_reductions(context, larger(larger(fluid.count, wall.count), grid.cells()), most_terms);
+  reserve_reductions(context, larger(larger(fluid.count.room, wall.count.room), grid.cells()), most_terms);
   surface_tension.reserve(fluid.count);
   scratch.resize(fluid.count);
   viscous.reserve(fluid.count, fluid_list.capacity(), row_cells());

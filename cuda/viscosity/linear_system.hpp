@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "backend/buffer.hpp"
+#include "backend/rows.hpp"
 #include "fluid/lane_math.hpp"
 #include "neighbours/cells.hpp"
 #include "neighbours/neighbours.hpp"
@@ -24,7 +25,7 @@ struct Chords {
 };
 
 struct LinearSystem {
-  Index size = 0;
+  Rows size;
   ListView links;                    // the particles that row i may be linked to
   Span<const Real> weight;           // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
   Span<const Quad> place;            // xyz: [m] whose differences are d_ij

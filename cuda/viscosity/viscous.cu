@@ -35,11 +35,13 @@ struct StartFromPredicted {
 // must be known to a share.
 struct BeginSolve {
   SolveState* state;
-  double wanted;
+  double wanted_each;  // of one row
+  Rows rows;
   int most_iterations;
   HOST_DEVICE void operator()(const Terms<5>& sums) const {
     constexpr double share = 0.03;
     const double start = std::sqrt(sums.value[1]), impulse = std::sqrt(sums.value[4]);
+    const double wanted = wanted_each * std::sqrt(static_cast<double>(rows.on_device()));
     state->limit = larger(smaller(wanted, share * impulse), rounding_residual(sums.value[3], start));
     state->right_hand_side = std::sqrt(sums.value[0]);
     state->rz = sums.value[2];
@@ -166,7 +168,7 @@ SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, con
 
 void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const Step& step,
                         FluidArrays& fluid) {
-  const Index n = fluid.count;
+  const Rows n = fluid.count;
   constexpr double largest_factor = 1.5;  // of the augmentations, between steps
   if (exact_yield_stress()) yield_.begin(whole, fluid, augmentation(whole, step, largest_factor));
   const PairContext c = as_solved(whole);
@@ -279,20 +281,20 @@ void ViscousStep::begin_solve(const LinearSystem& matrix, const RowCells& rows, 
   constexpr int patience = 4;
   Buffer<Quad>& increment = fluid.increment;
   const int most = most_by_diagonal(patience);
-  const double wanted = wanted_residual(step, matrix.size);
   launch_reduction<AddUp>(context_, "start", matrix.size,
                           StartFromPredicted{matrix, predicted_.span(), increment.span(), chords(step, fluid),
                                              right_hand_side_.span(), work_.residual.span()},
-                          BeginSolve{work_.state(), wanted, most});
+                          BeginSolve{work_.state(), wanted_residual(step, 1), matrix.size, most});
   if (most <= 0) return;
   const auto launch_batch = [&] {
     launch_conjugate_gradient(context_, matrix, smaller(patience, most), increment, work_);
   };
   if (!device_loop()) return launch_batch();
   context_.repeat_while(&work_.state()->running, launch_batch);
-  if (!multigrid_.prepared(rows)) return;
+  if (!goes_on_with_levels(rows)) return;
   SolveLimits limits;
-  limits.energy = square(wanted) / step.mass, limits.max_iterations = numerics_.max_iterations;
+  limits.energy = square(wanted_residual(step, matrix.size)) / step.mass,
+  limits.max_iterations = numerics_.max_iterations;
   multigrid_.launch_solve(matrix, rows, limits, {increment, work_});
 }
 

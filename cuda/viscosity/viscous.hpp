@@ -39,6 +39,8 @@ class ViscousStep {
   // part of a read(), which is read_posted() then.
   void reserve(Index count, Offset pair_capacity, const RowCells&);
   void begin(const PairContext&, const RowCells&, const Step&, FluidArrays&);
+  // Whether begin() goes on with multigrid on the device, whose levels are those of these rows alone.
+  bool goes_on_with_levels(const RowCells& rows) const { return device_loop() && multigrid_.prepared(rows); }
   StepRecord read() { return work_.read(context_); }
   void post() { work_.post(context_); }
   StepRecord read_posted() { return work_.read_posted(context_); }

@@ -81,6 +81,7 @@ void add_cost(Json& summary, const Simulation& simulation, const RunCounts& coun
   summary.set("device_waits", device.waits).set("device_launches", device.launches);
   summary.set("device_graph_launches", device.graph_launches);
   summary.set("device_graph_kernels", device.graph_kernels);
+  summary.set("device_graph_recordings", device.graph_recordings);
   summary.set("device_bytes_per_particle", static_cast<double>(bytes) / particles);
   Json timings = Json::object();
   for (const auto& [part, seconds] : simulation.timings()) timings.set(part, seconds);

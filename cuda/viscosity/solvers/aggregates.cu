@@ -21,15 +21,9 @@ struct HoldsAggregates {
   HOST_DEVICE void operator()(Index cell) const {
     Offset any = 0;
     for (int child = 0; child < 8; ++child) {
-      const int part[3] = {child & 1, child >> 1 & 1, child >> 2};
-      Index number = 0;
-      bool inside = true;
-      for (int axis = 2; axis >= 0; --axis) {
-        const int c = 2 * grid.along(cell, axis) + part[axis];
-        inside = inside && c < finer.grid.count[axis];
-        number = number * finer.grid.count[axis] + c;
-      }
-      if (inside && finer.number[number] >= 0) any = 1;
+      const int part[3] = {2 * grid.along(cell, 0) + (child & 1), 2 * grid.along(cell, 1) + (child >> 1 & 1),
+                           2 * grid.along(cell, 2) + (child >> 2)};
+      if (finer.grid.holds(part) && finer.number[finer.grid.cell_at(part)] >= 0) any = 1;
     }
     held[cell] = any;
   }
@@ -68,6 +62,7 @@ AggregateGrid AggregateGrid::from(const CellGrid& cells) {
     grid.periodic[k] = cells.periodic[k];
     grid.width[k] = 1 / static_cast<double>(cells.inverse_width[k]);
   }
+  grid.order = cells.order, grid.stride = cells.stride;
   grid.scale = cells.narrowest;
   return grid;
 }
@@ -78,6 +73,7 @@ AggregateGrid AggregateGrid::coarser() const {
     grid.count[k] = (count[k] + 1) / 2;
     grid.width[k] = 2 * width[k];
   }
+  grid.stride = Strides(grid.count, order);
   grid.scale = 2 * scale;
   return grid;
 }

@@ -16,6 +16,8 @@ struct CellSteps {
 struct AggregateGrid {
   int count[3] = {1, 1, 1};
   bool periodic[3] = {false, false, false};
+  AxisOrder order;
+  Strides stride;
   Vec3d width;       // of a cell [m]
   double scale = 1;  // [m]: rotations are told by the speed at this distance
 
@@ -24,9 +26,12 @@ struct AggregateGrid {
   bool single() const { return cells() == 1; }
 
   HOST_DEVICE Index cells() const { return count[0] * count[1] * count[2]; }
-  HOST_DEVICE int along(Index cell, int axis) const {
-    return axis == 0 ? cell % count[0]
-                     : (axis == 1 ? cell / count[0] % count[1] : cell / count[0] / count[1]);
+  HOST_DEVICE int along(Index cell, int axis) const { return cell / stride[axis] % count[axis]; }
+  HOST_DEVICE bool holds(const int (&step)[3]) const {
+    return step[0] < count[0] && step[1] < count[1] && step[2] < count[2];
+  }
+  HOST_DEVICE Index cell_at(const int (&step)[3]) const {
+    return step[0] * stride[0] + step[1] * stride[1] + step[2] * stride[2];
   }
   HOST_DEVICE Vec3d centre(CellSteps cell) const {
     return {(cell.along[0] + 0.5) * width.x, (cell.along[1] + 0.5) * width.y,
@@ -46,7 +51,7 @@ struct AggregateGrid {
   }
   // The cell of the next coarser grid that holds this one.
   HOST_DEVICE Index parent(Index cell, const AggregateGrid& coarse) const {
-    return (along(cell, 2) / 2 * coarse.count[1] + along(cell, 1) / 2) * coarse.count[0] + along(cell, 0) / 2;
+    return coarse.cell_at({along(cell, 0) / 2, along(cell, 1) / 2, along(cell, 2) / 2});
   }
 
   HOST_DEVICE CellSteps steps(Index cell) const { return {along(cell, 0), along(cell, 1), along(cell, 2)}; }
@@ -72,7 +77,7 @@ struct AggregateGrid {
       int c = along(from, axis) + way[axis];
       if (periodic[axis]) c = (c + count[axis]) % count[axis];
       if (c < 0 || c >= count[axis]) return -1;
-      cell = cell * count[axis] + c;
+      cell += c * stride[axis];
     }
     return this->slot(steps(from), steps(cell)) == slot ? cell : -1;
   }

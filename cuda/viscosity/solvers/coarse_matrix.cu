@@ -214,8 +214,8 @@ struct AssembleParts {
       const int c[3] = {2 * aggregates.grid.along(cell, 0) + (child & 1),
                         2 * aggregates.grid.along(cell, 1) + (child >> 1 & 1),
                         2 * aggregates.grid.along(cell, 2) + (child >> 2)};
-      if (c[0] >= fine.count[0] || c[1] >= fine.count[1] || c[2] >= fine.count[2]) continue;
-      const Index part = finer.aggregates.number[(c[2] * fine.count[1] + c[1]) * fine.count[0] + c[0]];
+      if (!fine.holds(c)) continue;
+      const Index part = finer.aggregates.number[fine.cell_at(c)];
       if (part >= 0) add_part(a, part);
     }
   }

@@ -78,7 +78,7 @@ struct JudgeSolution {
 
 void launch_conjugate_gradient(Context& context, const LinearSystem& system, int iterations, Buffer<Quad>& u,
                                SolverWorkspace& work) {
-  const Index n = system.size;
+  const Rows n = system.size;
   const auto r = work.residual.span(), p = work.direction.span(), product = work.product.span();
   SolveState* state = work.state();
   for (int k = 0; k < iterations; ++k) {

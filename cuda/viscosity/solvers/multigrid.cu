@@ -63,8 +63,8 @@ struct RestrictParts {
       const int c[3] = {2 * aggregates.grid.along(cell, 0) + (child & 1),
                         2 * aggregates.grid.along(cell, 1) + (child >> 1 & 1),
                         2 * aggregates.grid.along(cell, 2) + (child >> 2)};
-      if (c[0] >= fine.count[0] || c[1] >= fine.count[1] || c[2] >= fine.count[2]) continue;
-      const Index part_cell = (c[2] * fine.count[1] + c[1]) * fine.count[0] + c[0];
+      if (!fine.holds(c)) continue;
+      const Index part_cell = fine.cell_at(c);
       const Index part = finer.number[part_cell];
       if (part < 0) continue;
       sum += force_of_part(load_motion(rest.data + static_cast<Offset>(part) * motions),
@@ -248,7 +248,7 @@ void Multigrid::launch_start(const LinearSystem& system, const RowCells& rows, c
 void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
                                   Problem problem) {
   constexpr int at_a_time = 2;
-  const Index n = system.size;
+  const Rows n = system.size;
   SolverWorkspace& work = problem.work;
   const auto r = work.residual.span(), p = work.direction.span(), z = preconditioned_.span();
   const auto product = work.product.span();

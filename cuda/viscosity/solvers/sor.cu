@@ -30,9 +30,9 @@ struct RelaxCell {
   HOST_DEVICE void operator()(Index n) const {
     const int part[3] = {n % cells[0], n / cells[0] % cells[1], n / cells[0] / cells[1]};
     Index cell = 0;
-    for (int k = 2; k >= 0; --k) {
+    for (int k = 0; k < 3; ++k) {
       const int c = colour[k] == 2 ? rows.grid.count[k] - 1 : 2 * part[k] + colour[k];
-      cell = cell * rows.grid.count[k] + c;
+      cell += c * rows.grid.stride[k];
     }
     for (Index i = rows.cell_start[cell]; i < rows.cell_start[cell + 1]; ++i) relax(i);
   }

@@ -50,6 +50,7 @@ TEST(LaunchGraph, RecordsAnewWithOtherNumbersOrBuffers) {
   copies.to.swap(other);
   EXPECT_EQ(copies.run({1, 2, 4}, 1), (std::vector<int>{1, 2, 4}));
   EXPECT_EQ(copies.recorded, 3);
+  copies.to.resize(2), copies.context.arrange_anew();
   EXPECT_EQ(copies.run({5, 6}, 1), (std::vector<int>{5, 6}));
   EXPECT_EQ(copies.recorded, 4);
 }

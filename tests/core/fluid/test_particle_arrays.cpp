@@ -36,9 +36,9 @@ std::size_t bytes_of(const Context& context, std::size_t before) { return contex
 
 TEST(ParticleArrays, TakeNoMoreThanTheFirstParticlesNeed) {
   Context context;
-  const std::size_t before = context.allocated();
   FluidArrays fluid(context);
   WallArrays wall(context);
+  const std::size_t before = context.allocated();
   fluid.resize(1000);
   EXPECT_EQ(bytes_of(context, before), 1000 * bytes_each(fluid));
   wall.resize(10);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -252,6 +254,38 @@ TEST(CellGrid, AHugeDomainGetsWiderCellsInsteadOfTooMany) {
   EXPECT_LE(static_cast<double>(grid.count[0]) * grid.count[1] * grid.count[2], 1 << 24);
   EXPECT_GT(grid.cells(), 1 << 20);
   EXPECT_GE(grid.narrowest, 1);
+}
+
+TEST(CellGrid, AsManyCellsAsAreAllowed) {
+  const CellGrid grid = CellGrid::cover({1000, 1000, 1000}, {false, false, false}, 0.8, 2e9);
+  EXPECT_EQ(grid.count[0], 1249);
+  EXPECT_EQ(grid.cells(), 1249 * 1249 * 1249);
+  EXPECT_EQ(grid.cell_of({Real(999.9), Real(999.9), Real(999.9)}), grid.cells() - 1);
+}
+
+// The longest axis is the slowest, the one after it the fastest; each cell has a number of its own, and the
+// neighbours along an axis are where its stride says.
+TEST(CellGrid, NumbersPlanesAcrossTheLongestAxisOneAfterTheOther) {
+  const Vec3d domains[] = {{4, 3, 2}, {2, 4, 3}, {3, 2, 4}, {4, 2, 3}, {3, 3, 3}, {5, 4, 1}, {1, 1, 1}};
+  const int orders[][3] = {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}, {2, 1, 0}, {0, 1, 2}, {1, 2, 0}, {0, 1, 2}};
+  for (std::size_t d = 0; d < std::size(domains); ++d) {
+    const CellGrid grid = CellGrid::cover(domains[d], {false, false, false}, 0.99);
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(grid.order.axis[k], orders[d][k]) << d;
+    std::set<Index> numbers;
+    for (int x = 0; x < grid.count[0]; ++x)
+      for (int y = 0; y < grid.count[1]; ++y)
+        for (int z = 0; z < grid.count[2]; ++z) {
+          const auto at = [](int c) { return static_cast<Real>(c + 0.5); };
+          const Index cell = grid.cell_of({at(x), at(y), at(z)});
+          const int steps[3] = {x, y, z};
+          for (int k = 0; k < 3; ++k) EXPECT_EQ(grid.step_along(cell, k), steps[k]);
+          const int slow = grid.order.axis[2];
+          EXPECT_EQ(cell / grid.stride[slow], steps[slow]);
+          numbers.insert(cell);
+        }
+    EXPECT_EQ(static_cast<Index>(numbers.size()), grid.cells());
+    EXPECT_EQ(*numbers.rbegin(), grid.cells() - 1);
+  }
 }
 
 }  // namespace

@@ -88,9 +88,9 @@ class RenewedLists {
     const SourceView f = ordering_.fluid_sources(fluid_), w = ordering_.wall_sources(wall_);
     const Span<const Quad> places = fluid_.place.span(), wall_places = wall_.place.span();
     const auto all_reach = static_cast<Real>(h + skin);
-    return {{{&fluid_list_, {f, places, f.cell_start, box_, all_reach, Pairs::self}},
-             {&wall_list_, {w, places, f.cell_start, box_, all_reach, Pairs::other}},
-             {&wall_to_fluid_, {f, wall_places, w.cell_start, box_, all_reach, Pairs::other}}}};
+    return {{{&fluid_list_, {f, places, fluid_.count, f.cell_start, box_, all_reach, Pairs::self}},
+             {&wall_list_, {w, places, fluid_.count, f.cell_start, box_, all_reach, Pairs::other}},
+             {&wall_to_fluid_, {f, wall_places, wall_.count, w.cell_start, box_, all_reach, Pairs::other}}}};
   }
   static NeighbourList::Doubtful doubtful() {
     return {static_cast<Real>(0.999 * h), static_cast<Real>(1.001 * h + 2 * skin)};

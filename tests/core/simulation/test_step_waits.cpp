@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/graph_loops.hpp"
+#include "core/openings/fed_channel.hpp"
 #include "core/simulation_setups.hpp"
 #include "neighbours/neighbours.hpp"
 
@@ -17,8 +18,11 @@ DeviceCounts counts_of_step(Simulation& simulation) {
   const DeviceCounts before = simulation.device_counts();
   simulation.step();
   const DeviceCounts after = simulation.device_counts();
-  return {after.waits - before.waits, after.launches - before.launches,
-          after.graph_launches - before.graph_launches, after.graph_kernels - before.graph_kernels,
+  return {after.waits - before.waits,
+          after.launches - before.launches,
+          after.graph_launches - before.graph_launches,
+          after.graph_kernels - before.graph_kernels,
+          after.graph_recordings - before.graph_recordings,
           after.allocations - before.allocations};
 }
 
@@ -167,6 +171,12 @@ TEST(StepWaits, ARetriedStepIsOneGraphAndMore) {
   }
 }
 
+void expect_the_same_bits(Simulation& one, Simulation& other) {
+  const SavedState a = one.save(), b = other.save();
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].bytes, b[k].bytes) << a[k].name;
+}
+
 // A graph must not hold a number or a place of an earlier step.
 TEST(StepWaits, AGraphComputesTheBitsOfSingleLaunches) {
   SimulationSetup all = moving_dam(), weightless = dam();
@@ -183,12 +193,31 @@ TEST(StepWaits, AGraphComputesTheBitsOfSingleLaunches) {
       FluidSnapshot snapshot;
       if (k == 4) graphs.read(snapshot), graphs.totals();
     }
-    const SavedState a = graphs.save(), b = single.save();
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].bytes, b[k].bytes) << a[k].name;
+    expect_the_same_bits(graphs, single);
     EXPECT_EQ(single.device_counts().graph_launches, 0);
     EXPECT_EQ(graphs.device_counts().graph_launches, on_gpu() ? steps : 0);
   }
+}
+
+// Particles come in and go, and all are sorted time and again: what was recorded once serves.
+TEST(StepWaits, FlowThroughAChannelIsRecordedOnceInAHundredSteps) {
+  SimulationSetup setup = fed_channel();
+  setup.gravity = {0.2, 0, 0}, setup.inlets[0].rate = steady(1.5);
+  Simulation graphs(setup);
+  setup.time_parts = true;
+  Simulation single(setup);
+  constexpr int filling = 250, steps = 200;
+  for (int k = 0; k < filling; ++k) graphs.step(), single.step();
+  const std::int64_t builds = graphs.list_builds(), removed = graphs.totals().removed[0];
+  const DeviceCounts before = graphs.device_counts();
+  for (int k = 0; k < steps; ++k) graphs.step(), single.step();
+  expect_the_same_bits(graphs, single);
+  EXPECT_GT(graphs.list_builds(), builds + 10);
+  EXPECT_GT(graphs.totals().removed[0], removed + 30);
+  const DeviceCounts after = graphs.device_counts();
+  EXPECT_EQ(after.graph_launches - before.graph_launches, on_gpu() ? steps : 0);
+  EXPECT_LE(after.graph_recordings - before.graph_recordings, steps / 100);
+  EXPECT_EQ(after.graph_recordings > 0, on_gpu());
 }
 
 }  // namespace
