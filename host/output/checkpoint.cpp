@@ -15,7 +15,7 @@ namespace {
 using hdf5::File;
 using hdf5::Handle;
 
-constexpr const char* format_name = "slagflow checkpoint 2";
+constexpr const char* format_name = "slagflow checkpoint 3";
 constexpr std::array<char, 8> seal_mark{'S', 'L', 'A', 'G', 'S', 'E', 'A', 'L'};
 constexpr std::size_t seal_bytes = 16;
 
