@@ -10,6 +10,7 @@
 
 #include "host/geometry/setup_builder.hpp"
 #include "simulation/simulation.hpp"
+#include "tests/source_folder.hpp"
 
 namespace slagflow {
 namespace {
@@ -19,7 +20,7 @@ struct Particle {
 };
 
 int write(const char* path) {
-  const Case c = load_case(SLAGFLOW_SOURCE_DIR "/cases/dam_discharge_quick.toml",
+  const Case c = load_case(testing_tools::source_file("cases/dam_discharge_quick.toml"),
                            {"resolution.spacing=0.005", "fluid.slurry.growth_exponent=100"});
   Simulation simulation(build_setup(c).setup);
   for (int step = 0; step < 80; ++step) simulation.step();

@@ -69,7 +69,7 @@ class Model(unittest.TestCase):
 
     def test_a_launch_takes_its_slowest_part_and_a_wait_is_added(self):
         kernel = {"launches": 2, "warp_instructions": 0, "fp64": 0, "sectors": 0, "memory_sectors": 1000}
-        counts = {"fluid": 100, "waits_per_step": 1, "graph_kernels_per_step": 0, "kernels": [kernel]}
+        counts = {"fluid": 100, "waits_per_step": 1, "graph_kernels_per_step": 0, "graph_recordings_per_step": 0, "kernels": [kernel]}
         memory = 1000 * 1000 * 32 / 900e9 / device_model.ATTAINED
         self.assertAlmostEqual(device_model.step_time("V100", 100000, counts), device_model.WAIT + memory)
         smallest = device_model.WAIT + 2 * device_model.LAUNCH
@@ -77,6 +77,8 @@ class Model(unittest.TestCase):
         in_graph = device_model.WAIT + device_model.NODE + device_model.LAUNCH
         counts["graph_kernels_per_step"] = 1
         self.assertAlmostEqual(device_model.step_time("V100", 100, counts), in_graph)
+        counts["graph_recordings_per_step"] = 0.5
+        self.assertAlmostEqual(device_model.step_time("V100", 100, counts), in_graph + 0.5 * device_model.RECORDING)
 
     def test_measured_stands_beside_predicted(self):
         counts = device_model.read_counts()
@@ -107,6 +109,74 @@ kernel _Zk
         # The density gathers the acceleration by pressure, too: 16 B a thread more.
         density = part.replace("_Zk", "_ZDensityAndShearE")
         self.assertEqual(device_model.parse_profile(density)["_ZDensityAndShearE"], [2, 64, 20, 7, 304, 200])
+
+
+LOADER = """#!/bin/bash
+# In place of the loader: --library-path PATH PROGRAM ARGUMENT...
+shift 2
+for word; do
+  case $word in
+    --benchmark_out=*) echo '{"benchmarks": [{"run_type": "iteration", "particles": 100000, "real_time": 2.5,
+      "device_bytes_per_particle": 1500, "ms density": 0.75, "ms advance": 0.25}]}' >"${word#*=}" ;;
+  esac
+done
+case ${1##*/} in
+  agreement) exit "${AGREEMENT:-0}" ;;
+  test_core) sleep "${TESTS_TAKE:-0}" ;;
+esac
+"""
+
+
+class Pack(unittest.TestCase):
+    """What measure.sh does with programs in place of the real ones."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        (self.folder / "lib").mkdir()
+        loader = self.folder / "lib" / "ld-linux-x86-64.so.2"
+        loader.write_text(LOADER)
+        loader.chmod(0o755)
+        shutil.copy(PROJECT / "scripts" / "benching" / "measure.sh", self.folder)
+
+    def measure(self, *arguments, **environment):
+        done = subprocess.run([self.folder / "measure.sh", *arguments], capture_output=True, text=True,
+                              env={"PATH": "/usr/bin:/bin", **environment}, timeout=60)
+        return done, json.loads((self.folder / "results" / "parts.json").read_text())
+
+    def test_each_part_leaves_its_file_and_measured_stands_beside_the_model(self):
+        done, parts = self.measure()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({part["status"] for part in parts}, {0})
+        self.assertIn("agreement_compare", [part["part"] for part in parts])
+        said = bench("--read", self.folder / "results")
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("100000        2.500       none          4e+07     1500", said.stdout)
+        self.assertIn("density 0.750, advance 0.250", said.stdout)
+        (self.folder / "results" / "device.csv").write_text("name\nNVIDIA H200, 143771 MiB\n")
+        predicted = 1e3 * device_model.step_time("H200", 100000, device_model.read_counts())
+        self.assertIn(f"2.500 {predicted:>10.3f}", bench("--read", self.folder / "results").stdout)
+
+    def test_a_part_that_fails_leaves_the_others_alone(self):
+        done, parts = self.measure(AGREEMENT="3")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual([part["status"] for part in parts if part["status"] != 0], [3, 3])
+
+    def test_it_ends_in_time_whatever_hangs(self):
+        done, parts = self.measure("--seconds", "7", TESTS_TAKE="1000")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual([part["status"] for part in parts if part["status"] != 0],
+                         [124, "no time was left", "no time was left"])
+        self.assertLess(sum(part["seconds"] for part in parts), 15)
+
+    def test_a_folder_without_results_or_one_that_is_there_is_an_error(self):
+        done = bench("--read", self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has no parts.json", done.stderr)
+        done = bench("--device", "--pack", self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("is there already", done.stderr)
+        self.assertIn("--pack goes with --device", bench("--pack", self.folder).stderr)
 
 
 if __name__ == "__main__":

@@ -93,6 +93,15 @@ void warn_of_inlets(const SimulationSetup& s, HeatCheck& check) {
   }
 }
 
+void warn_of_flow(const SimulationSetup& s, HeatCheck& check) {
+  const double until = s.thermal.flow_until;
+  if (std::isfinite(until) && until >= s.end_time)
+    check.warnings.push_back(
+        format("thermal.flow_until = %g s is not before the run's end at %g s: the flow goes on "
+               "to the end",
+               until, s.end_time));
+}
+
 bool passes_heat(const SimulationSetup& s) {
   return std::any_of(s.bodies.begin(), s.bodies.end(),
                      [](const WallBody& b) { return b.thermal.kind != WallHeat::adiabatic; });
@@ -126,7 +135,7 @@ HeatCheck check_heat(const BuiltCase& built, double speed, double depth,
     check.fluids.push_back(numbers_of(s, f, speed, depth));
     warn_of(s, check.fluids.back(), check);
   }
-  add_contacts(s, check), add_thick_walls(s, walls, check), warn_of_inlets(s, check);
+  add_contacts(s, check), add_thick_walls(s, walls, check), warn_of_inlets(s, check), warn_of_flow(s, check);
   return check;
 }
 

@@ -25,11 +25,13 @@ GPUS = {
     "V100": (900e9, 80, 1.53e9, 4, 7.8e12),
     "A100": (1555e9, 108, 1.41e9, 4, 9.7e12),
     "H100": (3350e9, 132, 1.98e9, 4, 34e12),
+    "H200": (4800e9, 132, 1.98e9, 4, 34e12),
 }
 # Assumed, without a source: the share of the published rates that a kernel gets, the time from one launch to the next,
-# from one kernel of a graph to the next, and that of a wait, the launch that follows it included.
+# from one kernel of a graph to the next, that of a wait, the launch that follows it included, and that of recording a
+# step anew.
 ATTAINED = 0.75
-LAUNCH, NODE, WAIT = 2.5e-6, 1.5e-6, 15e-6  # [s]
+LAUNCH, NODE, WAIT, RECORDING = 2.5e-6, 1.5e-6, 15e-6, 100e-6  # [s]
 GATHERED_ARRAYS = 2           # of 16-byte elements, in a kernel that gathers
 MORE_GATHERED_ARRAYS = {"DensityAndShear": 1}  # by a part of the kernel's name
 SIZES = (12500, 102000, 1000000, 10000000)
@@ -85,7 +87,7 @@ def count(program):
               "iterations_per_step": round((iterations[1] - iterations[0]) / steps, 3),
               "rebuilds_per_step": round((last["list_builds"] - first["list_builds"]) / steps, 4),
               **{f"{key}_per_step": round((last[f"device_{key}"] - first[f"device_{key}"]) / steps, 3)
-                 for key in ("waits", "graph_launches", "graph_kernels")},
+                 for key in ("waits", "graph_launches", "graph_kernels", "graph_recordings")},
               "kernels": sorted(kernels, key=lambda k: -k["sectors"])}
     COUNTS.write_text(json.dumps(result, indent=1) + "\n")
 
@@ -102,7 +104,7 @@ def step_time(gpu, particles, counts):
     launches = sum(kernel["launches"] for kernel in counts["kernels"])
     in_graphs = counts["graph_kernels_per_step"] / launches
     begin = in_graphs * NODE + (1 - in_graphs) * LAUNCH
-    time = counts["waits_per_step"] * WAIT
+    time = counts["waits_per_step"] * WAIT + counts["graph_recordings_per_step"] * RECORDING
     for kernel in counts["kernels"]:
         busy = max(32 * kernel["memory_sectors"] / bandwidth, kernel["sectors"] / (sectors * processors * clock),
                    kernel["warp_instructions"] / (4 * processors * clock), kernel["fp64"] / double) * scale / ATTAINED
@@ -123,7 +125,8 @@ def print_table(counts):
     launches, waits, through, memory, instructions = totals(counts)
     print(f"Model, not measured. Counted in steps {counts['steps'][0]} to {counts['steps'][1]} of {counts['case']}: "
           f"{launches:.1f} kernels, {counts['graph_kernels_per_step']:.1f} of them in {counts['graph_launches_per_step']:.2f} "
-          f"graphs, and {waits:.2f} waits a step,\n{through:.0f} B through the first cache, "
+          f"graphs, {counts['graph_recordings_per_step']:.3f} recordings, {counts['rebuilds_per_step']:.3f} builds of the "
+          f"lists and {waits:.2f} waits a step,\n{through:.0f} B through the first cache, "
           f"{memory:.0f} B from memory and {instructions:.0f} thread instructions a fluid particle and step, "
           f"{counts['iterations_per_step']:.1f} iterations.\n")
     print("| fluid particles | " + " | ".join(GPUS) + " |\n|---|" + "---|" * len(GPUS))

@@ -18,7 +18,12 @@ target_include_directories(slagflow_backend SYSTEM INTERFACE ${CMAKE_CUDA_TOOLKI
 if(SLAGFLOW_WARNINGS_AS_ERRORS)
   set(strict "SHELL:-Werror all-warnings" -Xcompiler=-Werror)
 endif()
+if(NOT SLAGFLOW_COMPACT)
+  set(readable -lineinfo --no-compress)
+elseif(CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12.8)
+  set(readable -compress-mode=size)
+endif()
 target_compile_options(slagflow_backend INTERFACE
-  $<$<COMPILE_LANGUAGE:CUDA>:--extended-lambda --expt-relaxed-constexpr -lineinfo
-  ${strict} "SHELL:-Xcompiler -Wall,-Wextra" --no-compress>)
+  $<$<COMPILE_LANGUAGE:CUDA>:--extended-lambda --expt-relaxed-constexpr
+  ${readable} ${strict} "SHELL:-Xcompiler -Wall,-Wextra">)
 set_property(TARGET slagflow_backend PROPERTY INTERFACE_POSITION_INDEPENDENT_CODE ON)

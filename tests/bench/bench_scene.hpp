@@ -13,15 +13,26 @@
 #include "neighbours/ordering.hpp"
 #include "observation/diagnostics.hpp"
 #include "pressure/density.hpp"
+#include "tests/source_folder.hpp"
 #include "viscosity/viscous.hpp"
 
 namespace slagflow::bench {
 
-// The case at the spacing [um] that gives 12 500, 100 000, 409 600 or 1 562 500 fluid particles.
+// Spacings [um] that give the case 12 500, 100 000, 409 600 and 1 562 500 fluid particles, or on a GPU
+// 12 500, 100 000, 10^6 and 10^7; parts of a step are timed apart from whole steps at all but the last there.
+#if defined(SLAGFLOW_CUDA)
+inline constexpr std::int64_t spacings[] = {2000, 1000, 464, 215};
+inline constexpr std::int64_t finest_of_parts = 464, most_threads = 1;
+#else
+inline constexpr std::int64_t spacings[] = {2000, 1000, 625, 400};
+inline constexpr std::int64_t finest_of_parts = 400, most_threads = 2;
+#endif
+
+// The case at one of them.
 inline BuiltCase dam(std::int64_t spacing, const std::vector<std::string>& also = {}) {
   std::vector<std::string> set{"resolution.spacing=" + std::to_string(1e-6 * static_cast<double>(spacing))};
   set.insert(set.end(), also.begin(), also.end());
-  return build_setup(load_case(SLAGFLOW_SOURCE_DIR "/cases/dam_discharge_2mm.toml", set));
+  return build_setup(load_case(testing_tools::source_file("cases/dam_discharge_2mm.toml"), set));
 }
 
 class Scene {
@@ -49,7 +60,7 @@ class Scene {
   const SimulationSetup& setup() const { return built.setup; }
   double support() const { return setup().support_ratio * setup().spacing; }
   double fluid_reach() const { return support() * (1 + setup().numerics.skin); }
-  double wall_reach() const { return support() * (1 + 2.5 * setup().numerics.skin); }
+  double wall_reach() const { return fluid_reach(); }
 
   // All that a rebuild does.
   void build_neighbours() {
@@ -127,11 +138,16 @@ class Scene {
 };
 
 // Sizes and threads of every benchmark. range(0): spacing [um], range(1): threads.
-inline void sizes(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"spacing_um", "threads"})->Unit(benchmark::kMillisecond)->UseRealTime();
-  for (const std::int64_t spacing : {2000, 1000, 625, 400})
-    for (const std::int64_t threads : {1, 2}) b->Args({spacing, threads});
+inline void add_sizes(benchmark::internal::Benchmark* b, std::int64_t finest) {
+  b->ArgNames({"spacing_um", "threads"})->Unit(benchmark::kMillisecond);
+  for (const std::int64_t spacing : spacings)
+    for (std::int64_t threads = 1; threads <= most_threads && spacing >= finest; ++threads)
+      b->Args({spacing, threads});
 }
+inline void sizes_of_parts(benchmark::internal::Benchmark* b) {
+  add_sizes(b, finest_of_parts), b->UseRealTime();
+}
+inline void all_sizes(benchmark::internal::Benchmark* b) { add_sizes(b, 0), b->UseRealTime(); }
 
 // Bytes per second that the given number of threads reads and writes in a copy of memory; measured once.
 double copy_bandwidth(int threads);

@@ -42,7 +42,7 @@ void neighbours(benchmark::State& state) {
   const Work work{11 * quad_bytes + 4 * pairs.listed, 8 * candidates};
   measure(state, scene, work, [&] { scene.build_neighbours(); });
 }
-BENCHMARK(neighbours)->Apply(sizes);
+BENCHMARK(neighbours)->Apply(sizes_of_parts);
 
 void density(benchmark::State& state) {
   set_threads(static_cast<int>(state.range(1)));
@@ -53,7 +53,7 @@ void density(benchmark::State& state) {
   measure(state, scene, work,
           [&] { update_density(scene.context, scene.pairs(), scene.fluid, scene.scratch, 0); });
 }
-BENCHMARK(density)->Apply(sizes);
+BENCHMARK(density)->Apply(sizes_of_parts);
 
 void wall_pressure(benchmark::State& state) {
   set_threads(static_cast<int>(state.range(1)));
@@ -62,7 +62,7 @@ void wall_pressure(benchmark::State& state) {
     extrapolate_wall_pressure(scene.context, scene.pairs(), scene.wall_to_fluid.view(), scene.wall);
   });
 }
-BENCHMARK(wall_pressure)->Apply(sizes);
+BENCHMARK(wall_pressure)->Apply(sizes_of_parts);
 
 // Predictor, assembly and `iterations` iterations of a solver that never converges. The time of one part of
 // it, by its label, is what counts.
@@ -94,11 +94,7 @@ void viscous(benchmark::State& state, ViscousSolver solver, const char* part) {
     work = {(4 + real_bytes) * pairs.within + 2 * row_bytes + 12 * quad_bytes, 17 * pairs.within + 60};
   report(state, scene.fluid.count, work, rounds, seconds);
 }
-void manual_sizes(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"spacing_um", "threads"})->Unit(benchmark::kMillisecond)->UseManualTime();
-  for (const std::int64_t spacing : {2000, 1000, 625, 400})
-    for (const std::int64_t threads : {1, 2}) b->Args({spacing, threads});
-}
+void manual_sizes(benchmark::internal::Benchmark* b) { add_sizes(b, finest_of_parts), b->UseManualTime(); }
 BENCHMARK_CAPTURE(viscous, assembly, ViscousSolver::conjugate_gradient, "predictor and assembly")
     ->Apply(manual_sizes);
 BENCHMARK_CAPTURE(viscous, conjugate_gradient, ViscousSolver::conjugate_gradient, "viscous solve")

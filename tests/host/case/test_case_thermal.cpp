@@ -210,6 +210,8 @@ TEST(CaseThermal, CheckCountsTheStepsOfHeatAlone) {
         build_setup(parse_case(hot, "h.toml", {"output.end_time=3600", "thermal.flow_until=" + until})));
   };
   const CaseCheck alone = check("0"), both = check("1");
+  EXPECT_THAT(check("3600").warnings, testing::Contains(HasSubstr("the flow goes on to the end")));
+  EXPECT_THAT(both.warnings, testing::Not(testing::Contains(HasSubstr("the flow goes on to the end"))));
   EXPECT_EQ(alone.steps, std::ceil(3600 / alone.heat.time_step));
   EXPECT_EQ(both.steps, std::ceil(1 / both.time_step) + std::ceil(3599 / both.heat.time_step));
   EXPECT_THAT(to_text(both),
