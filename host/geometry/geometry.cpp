@@ -37,12 +37,16 @@ class Filler {
         body_(lattice_.size(), 0),
         fluid_(lattice_) {}
 
-  Filling run() {
+  Filling run(const Stage& stage) {
+    tell(stage, "looking for the sites of walls");
     mark_walls();
+    tell(stage, "filling the regions");
     for (std::size_t r = 0; r < c_.regions.size(); ++r) fill_region(r);
+    tell(stage, "placing wall particles");
     place_walls();
     warn_of_walls();
     for (std::string& warning : survey_.warnings()) result_.warnings.push_back(std::move(warning));
+    tell(stage, "working out the pressure of the start");
     const auto sites = std::make_shared<StartSites>(lattice_, std::move(body_), std::move(site_));
     result_.touching = touching_bodies(*sites);
     result_.bodies = fluid_bodies(c_, *sites, result_.touching);
@@ -301,6 +305,6 @@ Filling::~Filling() = default;
 Filling::Filling(Filling&&) noexcept = default;
 Filling& Filling::operator=(Filling&&) noexcept = default;
 
-Filling fill(const Case& c) { return Filler(c).run(); }
+Filling fill(const Case& c, const Stage& stage) { return Filler(c).run(stage); }
 
 }  // namespace slagflow

@@ -176,10 +176,16 @@ struct Filling {
   Filling& operator=(Filling&&) noexcept;
 };
 
+// Is told what is being done, at each step of a long work; may be empty.
+using Stage = std::function<void(const char* what)>;
+inline void tell(const Stage& stage, const char* what) {
+  if (stage) stage(what);
+}
+
 // Places all particles of a case. Fluid sites are in a region, in no earlier region and in no wall, and moved
 // to a fiftieth of a spacing off walls that are nearer; wall sites are in a wall and see fluid sites within
 // their layers. Throws InputError: a region without a site, too many particles, lack of memory.
-Filling fill(const Case& c);
+Filling fill(const Case& c, const Stage& stage = {});
 
 // Memory that can be had without swapping [bytes].
 double available_memory();
