@@ -20,35 +20,41 @@ struct Space {
 class Spaces {
  public:
   Spaces(const Case& c, const StartSites& sites)
-      : c_(c), sites_(sites), seen_(sites.lattice().size(), false) {}
+      : c_(c), sites_(sites), seen_(sites.lattice().size(), unseen) {}
 
   void warn(std::vector<std::string>& warnings) {
     for (const std::size_t site : sites_.taken()) {
-      if (seen_[site]) continue;
+      if (seen_[site] != unseen) continue;
       const Space space = explore(site);
       if (space.closed) warn_of(space, warnings);
     }
   }
 
  private:
+  static constexpr std::uint8_t unseen = 0, seen = 1, has_way_out = 2;
+
   bool stays(std::int32_t wall) const {
     return wall != StartSites::none &&
            c_.walls[static_cast<std::size_t>(wall)].motion.remove_at > c_.output.last_time();
   }
 
+  // A space that has a way out is not explored to its end: nothing else is asked of it.
   Space explore(std::size_t first) {
     Space space;
     space.faces.resize(c_.walls.size());
-    std::vector<std::size_t> edge{first};
-    seen_[first] = true;
-    while (!edge.empty()) {
+    std::vector<std::size_t> edge{first}, all{first};
+    seen_.set(first, seen);
+    while (!edge.empty() && space.closed) {
       const std::size_t site = edge.back();
       edge.pop_back();
       ++(sites_.fluid(site) != StartSites::none ? space.fluid : space.empty);
+      const std::size_t before = edge.size();
       for (int axis = 0; axis < 3; ++axis)
         for (const int way : {-1, 1})
           if (!(axis == 1 && c_.dimensions == 2)) look(site, axis, way, space, edge);
+      all.insert(all.end(), edge.begin() + static_cast<std::ptrdiff_t>(before), edge.end());
     }
+    for (std::size_t k = 0; !space.closed && k < all.size(); ++k) seen_.set(all[k], has_way_out);
     return space;
   }
 
@@ -56,10 +62,10 @@ class Spaces {
     const auto beside = sites_.beside(site, axis, way);
     if (beside && stays(sites_.wall(*beside))) {
       space.faces[static_cast<std::size_t>(sites_.wall(*beside))][axis] -= way;
-    } else if (!beside || !sites_.in_domain(*beside)) {
+    } else if (!beside || !sites_.in_domain(*beside) || seen_[*beside] == has_way_out) {
       space.closed = false;
-    } else if (!seen_[*beside]) {
-      seen_[*beside] = true;
+    } else if (seen_[*beside] == unseen) {
+      seen_.set(*beside, seen);
       edge.push_back(*beside);
     }
   }
@@ -102,7 +108,7 @@ class Spaces {
 
   const Case& c_;
   const StartSites& sites_;
-  std::vector<bool> seen_;
+  Paged<std::uint8_t> seen_;  // of each site
 };
 
 }  // namespace

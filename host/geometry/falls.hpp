@@ -8,12 +8,8 @@
 
 namespace slagflow {
 
-// Fluid that hangs together at the start, or has at most two open sites between it and fluid below.
-struct FluidBodies {
-  std::vector<std::int32_t> of;  // the body of each particle
-  std::int32_t count = 0;
-};
-FluidBodies fluid_bodies(const Case& c, const StartSites& sites);
+// Fluid that touches at the start, or has at most two open sites between it and fluid below.
+FluidBodies fluid_bodies(const Case& c, const StartSites& sites, const FluidBodies& touching);
 
 // The largest speeds at which fluid will meet a wall or fluid at rest inside of the domain [m/s]: of bodies
 // that fly, which strike with a whole face, and of streams off edges. 0 where nothing falls by more than two

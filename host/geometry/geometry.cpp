@@ -3,50 +3,54 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
-#include <set>
-#include <tuple>
 
 #include "backend/error.hpp"
+#include "backend/host_loop.hpp"
+#include "host/geometry/falls.hpp"
 #include "host/geometry/fill_level.hpp"
 #include "host/geometry/inlets.hpp"
 #include "host/geometry/region_fields.hpp"
 #include "host/geometry/region_survey.hpp"
 #include "host/geometry/start_pressure.hpp"
-#include "host/geometry/wall_survey.hpp"
+#include "host/geometry/touching.hpp"
+#include "host/geometry/wall_filler.hpp"
 
 namespace slagflow {
 namespace {
 
 constexpr double wall_room = 0.25;         // [spacings] that fluid needs before a wall at the start
 constexpr double wall_gap = 0.02;          // [spacings] that fluid keeps from a wall at the start
-constexpr double off_lattice = 0.05;       // [spacings] that a face may lie beside its place
-constexpr std::size_t faces_told = 3;      // of a wall, that lie beside theirs; of more the number
 constexpr double bytes_per_particle = 89;  // position, normals, depths, index of a wall particle
 constexpr std::size_t most_particles = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t room_check = 1 << 20;  // particles between looks at the memory
+constexpr std::size_t parts_at_once = 64;    // of the lattice, whose particles are kept before they are added
 
 class Filler {
  public:
   explicit Filler(const Case& c)
-      : c_(c), lattice_(c), solids_(c), survey_(c, lattice_, solids_), inlets_(c, columns()) {
-    steps_ = steps_by_length();
-    body_.assign(lattice_.size(), 0);
-    flags_.assign(lattice_.size(), 0);
-  }
+      : c_(c),
+        lattice_(c),
+        solids_(c),
+        survey_(c, lattice_, solids_),
+        inlets_(c, columns()),
+        body_(lattice_.size(), 0),
+        fluid_(lattice_) {}
 
-  Filling run() {
+  Filling run(const Stage& stage) {
+    tell(stage, "looking for the sites of walls");
     mark_walls();
+    tell(stage, "filling the regions");
     for (std::size_t r = 0; r < c_.regions.size(); ++r) fill_region(r);
-    place_walls([&](std::size_t body) { return !solids_.moves(body); });
-    for (std::size_t b = 0; b < solids_.count(); ++b)
-      if (solids_.moves(b)) place_walls([&](std::size_t body) { return body == b; });
-    warn_of_more_faces();
+    tell(stage, "placing wall particles");
+    place_walls();
     warn_of_walls();
     for (std::string& warning : survey_.warnings()) result_.warnings.push_back(std::move(warning));
+    tell(stage, "working out the pressure of the start");
     const auto sites = std::make_shared<StartSites>(lattice_, std::move(body_), std::move(site_));
-    result_.fluid.pressure = start_pressure(c_, *sites, result_.fluid, region_);
+    result_.touching = touching_bodies(*sites);
+    result_.bodies = fluid_bodies(c_, *sites, result_.touching);
+    result_.fluid.pressure = start_pressure(c_, *sites, result_.bodies, result_.fluid, region_);
     result_.sites = sites;
     result_.region = std::move(region_);
     result_.inlets = inlets_.inlets();
@@ -55,9 +59,6 @@ class Filler {
   }
 
  private:
-  // Bits of flags_. open << (axis + 1): within the layers of an open site, along this axis and those before.
-  static constexpr int fluid = 1, open = 2, sees_open = open << 3;
-
   std::vector<InletColumns> columns() const {
     std::vector<InletColumns> columns;
     for (std::size_t k = 0; k < c_.inlets.size(); ++k)
@@ -74,15 +75,40 @@ class Filler {
   }
 
   void mark_wall(std::size_t b) {
-    lattice_.visit_inside([&](Vec3d p) { return solids_[b].distance(p); },
-                          [&](const SiteIndex& s, Vec3d p) {
-                            std::uint8_t& body = body_[lattice_.linear(s)];
-                            if (body == 0)
-                              body = static_cast<std::uint8_t>(b + 1);
-                            else if (solids_.moves(b) && !solids_.moves(body - std::size_t{1}))
-                              survey_.covered(p, b);
-                          });
+    std::vector<std::vector<Vec3d>> covered(lattice_.parts());
+    for_each_part(lattice_.parts(), [&](std::size_t part) {
+      lattice_.visit_part(
+          part, [&](Vec3d p) { return solids_[b].distance(p); },
+          [&](const SiteIndex& first, std::int64_t count) { mark_row(b, first, count, covered[part]); });
+    });
+    for (const std::vector<Vec3d>& part : covered)
+      for (const Vec3d& p : part) survey_.covered(p, b);
   }
+
+  void mark_row(std::size_t b, SiteIndex s, std::int64_t count, std::vector<Vec3d>& covered) {
+    std::uint8_t* const bodies = body_.data() + lattice_.linear(s);
+    for (std::int64_t k = 0; k < count; ++k) {
+      if (bodies[k] == 0) {
+        bodies[k] = static_cast<std::uint8_t>(b + 1);
+      } else if (solids_.moves(b) && !solids_.moves(bodies[k] - std::size_t{1})) {
+        const Vec3d p = lattice_.position({s[0] + k, s[1], s[2]});
+        if (survey_.comes_out(p, b)) covered.push_back(p);
+      }
+    }
+  }
+
+  // Particles of a part of the lattice.
+  struct Taken {
+    RegionSites sites;
+    std::vector<std::size_t> site;
+    std::vector<Vec3d> place;
+  };
+
+  // Parts of the lattice that threads may share, and what visits those of their sites that a region may have.
+  struct Parts {
+    std::size_t count;
+    std::function<void(std::size_t part, const Lattice::VisitRow&)> visit;
+  };
 
   void fill_region(std::size_t r) {
     const RegionSpec& region = c_.regions[r];
@@ -92,11 +118,13 @@ class Filler {
     const std::size_t first = out.position.size();
     RegionSites sites;
     sites.in_wall.assign(c_.walls.size(), 0);
-    const auto take = [&](const SiteIndex& s, Vec3d p) { take_site(region, s, p, sites); };
-    if (region.fill.given)
-      fill_to_level(r, solid, take);
-    else
-      lattice_.visit_inside([&](Vec3d p) { return solid.distance(p); }, take);
+    const Parts parts = region.fill.given ? parts_to_level(r, solid) : parts_inside(solid);
+    for (std::size_t from = 0; from < parts.count; from += parts_at_once) {
+      std::vector<Taken> taken(std::min(parts_at_once, parts.count - from));
+      for_each_part(taken.size(), [&](std::size_t k) { take(parts, from + k, taken[k]); });
+      add(region, taken);
+      for (const Taken& part : taken) sites.add(part.sites);
+    }
     if (out.position.size() == first)
       throw InputError(c_.place_of(key) + ": key '" + key +
                        "': " + reason_without_particle(c_, region, solid, sites));
@@ -108,39 +136,88 @@ class Filler {
     region_.resize(out.position.size(), static_cast<std::uint32_t>(r));
   }
 
-  void take_site(const RegionSpec& region, const SiteIndex& s, Vec3d p, RegionSites& sites) {
-    if (!is_free(s, sites)) return;
-    const std::optional<Vec3d> place = off_walls(p);
-    if (!place) {
-      ++sites.without_room;
-      return;
-    }
-    FluidParticles& out = result_.fluid;
-    flags_[lattice_.linear(s)] |= fluid;
-    check_room();
-    out.position.push_back(region.jitter > 0 ? jittered(*place, region.jitter) : *place);
-    out.velocity.push_back(initial_velocity(region, out.position.back()));
-    site_.push_back(lattice_.linear(s));
+  Parts parts_inside(const Solid& solid) const {
+    return {lattice_.parts(), [this, &solid](std::size_t part, const Lattice::VisitRow& visit) {
+              lattice_.visit_part(
+                  part, [&](Vec3d p) { return solid.distance(p); }, visit);
+            }};
   }
 
   // The sites that a pour would fill, in the order of the lattice.
-  template <class Take>
-  void fill_to_level(std::size_t r, const Solid& without, const Take& take) {
-    const std::vector<bool> filled = flood({c_, lattice_, body_, r});
-    for_all_sites([&](const SiteIndex& s) {
-      const Vec3d p = lattice_.position(s);
-      if (filled[lattice_.linear(s)] && !without.subtracts(p)) take(s, p);
+  Parts parts_to_level(std::size_t r, const Solid& without) const {
+    const auto filled = std::make_shared<const std::vector<bool>>(flood({c_, lattice_, body_, r}));
+    return {fluid_.rows(), [this, filled, &without](std::size_t row, const Lattice::VisitRow& visit) {
+              SiteIndex s = fluid_.first_of(row);
+              for (std::size_t at = lattice_.linear(s); s[0] < lattice_.count()[0]; ++s[0], ++at)
+                if ((*filled)[at] && !without.subtracts(lattice_.position(s))) visit(s, 1);
+            }};
+  }
+
+  void take(const Parts& parts, std::size_t number, Taken& taken) {
+    taken.sites.in_wall.assign(c_.walls.size(), 0);
+    parts.visit(number, [&](const SiteIndex& first, std::int64_t count) {
+      SiteIndex s = first;
+      for (; s[0] < first[0] + count; ++s[0]) take_site(s, taken);
     });
   }
 
-  // Whether a site in the domain is in no wall and no earlier region; counts what it is.
-  bool is_free(const SiteIndex& s, RegionSites& sites) const {
-    if (!lattice_.in_domain(s)) return false;
+  void take_site(const SiteIndex& s, Taken& taken) {
+    if (!lattice_.in_domain(s)) return;
+    const Vec3d p = lattice_.position(s);
+    if (!is_free(s, p, taken.sites)) return;
+    const std::optional<Vec3d> place = off_walls(p);
+    if (!place) {
+      ++taken.sites.without_room;
+      return;
+    }
+    fluid_.set(s);
+    taken.site.push_back(lattice_.linear(s));
+    taken.place.push_back(*place);
+  }
+
+  void add(const RegionSpec& region, const std::vector<Taken>& parts) {
+    FluidParticles& out = result_.fluid;
+    std::vector<std::size_t> begin{out.position.size()};
+    for (const Taken& part : parts) begin.push_back(begin.back() + part.site.size());
+    for (std::size_t i = begin.front(); i < begin.back(); ++i) check_room(i + result_.walls.position.size());
+    out.position.resize(begin.back()), out.velocity.resize(begin.back()), site_.resize(begin.back());
+    for_each_part(parts.size(), [&](std::size_t part) {
+      for (std::size_t k = 0; k < parts[part].site.size(); ++k) {
+        const std::size_t i = begin[part] + k;
+        const Vec3d place = parts[part].place[k];
+        out.position[i] = region.jitter > 0 ? jittered(place, region.jitter, i) : place;
+        out.velocity[i] = initial_velocity(region, out.position[i]);
+        site_[i] = parts[part].site[k];
+      }
+    });
+  }
+
+  // Whether a site of the domain is in no wall and no earlier region; counts what it is.
+  bool is_free(const SiteIndex& s, Vec3d p, RegionSites& sites) const {
     ++sites.all;
-    const std::size_t at = lattice_.linear(s);
-    if (body_[at] != 0) ++sites.in_walls, ++sites.in_wall[body_[at] - std::size_t{1}];
-    if (flags_[at] & fluid) ++sites.in_earlier_regions;
-    return body_[at] == 0 && !(flags_[at] & fluid) && !inlets_.holds_fluid(lattice_.position(s));
+    const std::uint8_t body = body_[lattice_.linear(s)];
+    const bool taken = fluid_.test(s);
+    if (body != 0) ++sites.in_walls, ++sites.in_wall[body - std::size_t{1}];
+    if (taken) ++sites.in_earlier_regions;
+    return body == 0 && !taken && !inlets_.holds_fluid(p);
+  }
+
+  void place_walls() {
+    WallFiller filler({c_, lattice_, solids_, inlets_, body_, fluid_}, survey_);
+    const auto place = [&](const std::vector<bool>& company) {
+      const auto room = [&] { check_room(result_.fluid.position.size() + result_.walls.position.size()); };
+      filler.place(company, room, result_.walls);
+    };
+    std::vector<bool> at_rest;
+    for (std::size_t b = 0; b < solids_.count(); ++b) at_rest.push_back(!solids_.moves(b));
+    place(at_rest);
+    for (std::size_t b = 0; b < solids_.count(); ++b) {
+      if (!solids_.moves(b)) continue;
+      std::vector<bool> alone(solids_.count(), false);
+      alone[b] = true;
+      place(alone);
+    }
+    for (std::string& warning : filler.warnings()) result_.warnings.push_back(std::move(warning));
   }
 
   // Where the sites are.
@@ -182,8 +259,8 @@ class Filler {
   }
 
   // The particle's place beside its site; nearer to it where it would be in a wall or outside of the domain.
-  Vec3d jittered(Vec3d site, double jitter) const {
-    Vec3d offset = jitter * lattice_.spacing() * jitter_of(result_.fluid.position.size());
+  Vec3d jittered(Vec3d site, double jitter, std::size_t particle) const {
+    Vec3d offset = jitter * lattice_.spacing() * jitter_of(particle);
     if (c_.dimensions == 2) offset.y = 0;
     for (int tries = 0; tries < 20; ++tries, offset = 0.5 * offset) {
       const Vec3d p = lattice_.wrapped(site + offset);
@@ -192,155 +269,8 @@ class Filler {
     return site;
   }
 
-  template <class Visit>
-  void for_all_sites(const Visit& visit) const {
-    const SiteIndex& n = lattice_.count();
-    SiteIndex s{};
-    for (s[2] = 0; s[2] < n[2]; ++s[2])
-      for (s[1] = 0; s[1] < n[1]; ++s[1])
-        for (s[0] = 0; s[0] < n[0]; ++s[0]) visit(s);
-  }
-
-  // Marks what is open when only the walls of the company are there.
-  template <class Company>
-  void mark_open(const Company& company) {
-    for_all_sites([&](const SiteIndex& s) {
-      const std::size_t at = lattice_.linear(s);
-      flags_[at] &= fluid;
-      if ((body_[at] == 0 || !company(body_[at] - std::size_t{1})) && lattice_.in_domain(s))
-        flags_[at] |= open;
-    });
-    for (int axis = 0; axis < 3; ++axis) widen_open(axis);
-  }
-
-  // Carries the bit of the axis before on to all sites within the layers along this axis.
-  void widen_open(int axis) {
-    const auto k = static_cast<std::size_t>(axis);
-    const int from = open << axis, to = open << (axis + 1);
-    const std::int64_t layers = lattice_.layers(), n = lattice_.count()[k];
-    const std::int64_t wrap = lattice_.periodic(axis) ? layers : 0;
-    for_all_sites([&](const SiteIndex& start) {
-      if (start[k] != 0) return;
-      for (const std::int64_t way : {1, -1}) {
-        std::int64_t since = layers + 1;  // steps since the last open site
-        for (std::int64_t step = -wrap; step < n; ++step) {
-          SiteIndex s = start;
-          lattice_.move(s, axis, way > 0 ? step : n - 1 - step);
-          std::uint8_t& flags = flags_[lattice_.linear(s)];
-          since = (flags & from) ? 0 : since + 1;
-          if (since <= layers) flags = static_cast<std::uint8_t>(flags | to);
-        }
-      }
-    });
-  }
-
-  // All steps within the layers, short ones first.
-  std::vector<SiteIndex> steps_by_length() const {
-    const std::int64_t n = lattice_.layers();
-    std::vector<SiteIndex> steps;
-    for (std::int64_t z = -n; z <= n; ++z)
-      for (std::int64_t y = -n; y <= n; ++y)
-        for (std::int64_t x = -n; x <= n; ++x) steps.push_back({x, y, z});
-    const auto square_of = [](const SiteIndex& s) { return s[0] * s[0] + s[1] * s[1] + s[2] * s[2]; };
-    std::stable_sort(steps.begin(), steps.end(),
-                     [&](const SiteIndex& a, const SiteIndex& b) { return square_of(a) < square_of(b); });
-    return steps;
-  }
-
-  // Position of the nearest open site; a wall site that is placed has one within its layers.
-  Vec3d nearest_open(const SiteIndex& site, Vec3d p) const {
-    for (const SiteIndex& step : steps_) {
-      SiteIndex s = site;
-      bool there = true;
-      for (int axis = 0; axis < 3; ++axis)
-        there = lattice_.move(s, axis, step[static_cast<std::size_t>(axis)]) && there;
-      if (there && (flags_[lattice_.linear(s)] & open))
-        return p + lattice_.spacing() * Vec3d{static_cast<double>(step[0]), static_cast<double>(step[1]),
-                                              static_cast<double>(step[2])};
-    }
-    return p;
-  }
-
-  // Places the particles of a company: the walls at rest, or one that moves.
-  template <class Company>
-  void place_walls(const Company& company) {
-    mark_open(company);
-    const WallFaces faces(c_, lattice_, solids_);
-    WallParticles& out = result_.walls;
-    for_all_sites([&](const SiteIndex& s) {
-      const std::size_t at = lattice_.linear(s);
-      if (body_[at] == 0 || !(flags_[at] & sees_open) || !company(body_[at] - std::size_t{1})) return;
-      const auto body = static_cast<std::uint8_t>(body_[at] - 1);
-      const Vec3d p = lattice_.position(s);
-      if (inlets_.holds_wall(p)) return;
-      const WallFace face = faces.of(p, body, nearest_open(s, p));
-      if (face.depth == 0) return survey_.dropped(p, body);
-      check_room();
-      out.position.push_back(p);
-      out.normal.push_back(face.normal);
-      out.depth.push_back(face.depth);
-      out.back_normal.push_back(face.back_normal);
-      out.back_depth.push_back(face.back_depth);
-      out.body.push_back(body);
-      check_face(s, p, face);
-      survey_.placed(p, body, face);
-    });
-  }
-
-  // Warns of a planar face that borders the fluid but does not lie midway between two layers of sites.
-  void check_face(const SiteIndex& s, Vec3d p, const WallFace& face) {
-    const double depth = face.depth / lattice_.spacing();
-    if (depth > 1 || std::abs(depth - 0.5) <= off_lattice) return;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(face.normal[axis]) < 1 - 1e-9) continue;
-      const int sign = face.normal[axis] > 0 ? 1 : -1;
-      const double coordinate = p[axis] + face.depth * face.normal[axis];
-      if (!fluid_beyond(s, axis, sign)) return;
-      const std::size_t body = body_[lattice_.linear(s)] - std::size_t{1};
-      if (!is_plane(p + face.depth * face.normal, axis, body)) return;
-      const long rounded = std::lround(1000 * coordinate / lattice_.spacing());
-      if (!warned_.emplace(body, axis, sign, rounded).second || ++faces_off_[body] > faces_told) return;
-      char text[160];
-      std::snprintf(text, sizeof text, "the face %c = %.6g m lies %.2f spacings off the lattice", "xyz"[axis],
-                    coordinate, std::abs(depth - 0.5));
-      result_.warnings.push_back("wall '" + c_.walls[body].name + "': " + text +
-                                 "; faces that border the fluid should be a whole number of spacings from "
-                                 "resolution.origin");
-    }
-  }
-
-  // Whether the walls have a face there, half a spacing wide and more, across an axis: not so at the pole of
-  // a sphere, nor where a wall particle counts as below the plane of a face that does not reach so far.
-  bool is_plane(Vec3d foot, int axis, std::size_t body) const {
-    const auto on_face = [&](Vec3d q) {
-      return std::abs(solids_.distance_to_company(lattice_.wrapped(q), body)) < 1e-3 * lattice_.spacing();
-    };
-    if (!on_face(foot)) return false;
-    for (int across = 0; across < 3; ++across) {
-      if (across == axis || (across == 1 && c_.dimensions == 2)) continue;
-      Vec3d one = foot, other = foot;
-      one[across] -= 0.5 * lattice_.spacing(), other[across] += 0.5 * lattice_.spacing();
-      if (!on_face(one) && !on_face(other)) return false;
-    }
-    return true;
-  }
-
-  void warn_of_more_faces() {
-    for (const auto& [body, faces] : faces_off_)
-      if (faces > faces_told)
-        result_.warnings.push_back(
-            "wall '" + c_.walls[body].name +
-            "': faces off the lattice besides these: " + std::to_string(faces - faces_told));
-  }
-
-  bool fluid_beyond(SiteIndex s, int axis, int sign) const {
-    for (int step = 0; step < 2; ++step)
-      if (lattice_.move(s, axis, sign) && (flags_[lattice_.linear(s)] & fluid)) return true;
-    return false;
-  }
-
-  void check_room() const {
-    const std::size_t particles = result_.fluid.position.size() + result_.walls.position.size();
+  // Before one more particle.
+  void check_room(std::size_t particles) const {
     if (particles >= most_particles) refuse("more than 2147483647 particles");
     if (particles == 0 || particles % room_check != 0) return;
     // Arrays that grow are held twice for a moment.
@@ -362,12 +292,9 @@ class Filler {
   WallSurvey survey_;
   InletSpace inlets_;
   std::vector<std::uint8_t> body_;     // per site: 0, or index of the wall + 1
-  std::vector<std::uint8_t> flags_;    // per site
+  SiteBits fluid_;                     // sites with a particle
   std::vector<std::size_t> site_;      // of each fluid particle
   std::vector<std::uint32_t> region_;  // of each fluid particle
-  std::set<std::tuple<std::size_t, int, int, long>> warned_;
-  std::map<std::size_t, std::size_t> faces_off_;  // of each wall: off the lattice
-  std::vector<SiteIndex> steps_;
   Filling result_;
 };
 
@@ -378,6 +305,6 @@ Filling::~Filling() = default;
 Filling::Filling(Filling&&) noexcept = default;
 Filling& Filling::operator=(Filling&&) noexcept = default;
 
-Filling fill(const Case& c) { return Filler(c).run(); }
+Filling fill(const Case& c, const Stage& stage) { return Filler(c).run(stage); }
 
 }  // namespace slagflow

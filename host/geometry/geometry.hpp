@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -36,22 +37,47 @@ class Lattice {
     return static_cast<std::size_t>(s[0] + count_[0] * (s[1] + count_[1] * s[2]));
   }
   Vec3d position(const SiteIndex& s) const;  // [m]
-  bool in_domain(const SiteIndex& s) const;
+  bool in_domain(const SiteIndex& s) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (s[k] < inner_first_[k] || s[k] >= inner_last_[k]) return false;
+    return true;
+  }
   bool in_domain(Vec3d p) const;  // between the faces; along y always with two dimensions
-  Vec3d wrapped(Vec3d p) const;   // brought back into the domain along periodic axes [m]
+  Vec3d wrapped(Vec3d p) const {  // brought back into the domain along periodic axes [m]
+    for (int k = 0; k < 3; ++k) {
+      if (!periodic(k)) continue;
+      const double extent = upper_[k] - lower_[k];
+      p[k] -= extent * std::floor((p[k] - lower_[k]) / extent);
+    }
+    return p;
+  }
   bool periodic(int axis) const { return periodic_[static_cast<std::size_t>(axis)]; }
   std::optional<SiteIndex> at(Vec3d place) const;  // the site that a place is in; nothing beyond the lattice
   // Moves along an axis, round a periodic one. Returns false when that leaves the lattice.
-  bool move(SiteIndex& s, int axis, std::int64_t steps) const;
+  bool move(SiteIndex& s, int axis, std::int64_t steps) const {
+    const auto k = static_cast<std::size_t>(axis);
+    s[k] += steps;
+    if (s[k] >= 0 && s[k] < count_[k]) return true;
+    if (periodic_[k]) s[k] = ((s[k] % count_[k]) + count_[k]) % count_[k];
+    return periodic_[k];
+  }
+  // Sites of the domain, without the margin: from, and up to but not including.
+  const SiteIndex& inner_first() const { return inner_first_; }
+  const SiteIndex& inner_last() const { return inner_last_; }
 
   using Distance = std::function<double(Vec3d)>;
   using Visit = std::function<void(const SiteIndex&, Vec3d)>;
+  using VisitRow = std::function<void(const SiteIndex& first, std::int64_t count)>;
   // Visits all sites where a signed distance is negative. Ties, sites on a face, go to the body on the
   // side of the larger coordinate. Blocks of sites that are clearly in or out are settled at once.
   void visit_inside(const Distance& distance, const Visit& visit) const;
+  // The same part by part, which threads may share: a part is a row of blocks, and no two have a site in
+  // common. Visits sites that follow each other along x.
+  std::size_t parts() const;
+  void visit_part(std::size_t part, const Distance& distance, const VisitRow& visit) const;
 
  private:
-  void visit_block(const SiteIndex& first, const Distance& distance, const Visit& visit) const;
+  void visit_block(const SiteIndex& first, const Distance& distance, const VisitRow& visit) const;
 
   double spacing_;
   Vec3d origin_;
@@ -59,6 +85,7 @@ class Lattice {
   bool flat_;
   std::array<bool, 3> periodic_;
   Vec3d lower_, upper_;                                         // [m] of the domain
+  Vec3d corner_;                                                // [m] the first site
   SiteIndex first_{}, count_{}, inner_first_{}, inner_last_{};  // inner: relative to first_, last excluded
 };
 
@@ -129,10 +156,16 @@ class StartSites;
 
 struct InletColumns;
 
+struct FluidBodies {
+  std::vector<std::int32_t> of;  // the body of each particle
+  std::int32_t count = 0;        // in the order of their first particles
+};
+
 struct Filling {
   FluidParticles fluid;
   WallParticles walls;
   std::shared_ptr<const StartSites> sites;  // who has which site of the lattice
+  FluidBodies touching, bodies;             // what fluid touches, and what hangs together
   std::vector<std::uint32_t> region;        // of each fluid particle
   std::vector<InletColumns> inlets;
   std::vector<std::string> warnings;
@@ -143,10 +176,16 @@ struct Filling {
   Filling& operator=(Filling&&) noexcept;
 };
 
+// Is told what is being done, at each step of a long work; may be empty.
+using Stage = std::function<void(const char* what)>;
+inline void tell(const Stage& stage, const char* what) {
+  if (stage) stage(what);
+}
+
 // Places all particles of a case. Fluid sites are in a region, in no earlier region and in no wall, and moved
 // to a fiftieth of a spacing off walls that are nearer; wall sites are in a wall and see fluid sites within
 // their layers. Throws InputError: a region without a site, too many particles, lack of memory.
-Filling fill(const Case& c);
+Filling fill(const Case& c, const Stage& stage = {});
 
 // Memory that can be had without swapping [bytes].
 double available_memory();

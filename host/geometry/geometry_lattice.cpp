@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t block = 8;      // sites along the edge of a block
 constexpr double tie = 1e-6;           // [spacings] nudge that decides for sites on a face
-constexpr double bytes_per_site = 6;   // flags, index of the wall and of the particle
+constexpr double bytes_per_site = 6;   // more than the index of its wall, its bits and its pages take
 constexpr double largest_index = 1e9;  // keeps positions exact to a fraction of a spacing
 
 }  // namespace
@@ -31,6 +31,14 @@ std::string rounded(double count) {
   char text[40];
   std::snprintf(text, sizeof text, "%.4g", count);
   return text;
+}
+
+// As std::llround, in line; of what is far off the same for all.
+std::int64_t nearest(double x) {
+  constexpr double far_off = 1e15;
+  if (!(std::abs(x) < far_off)) return -1;
+  const double whole = std::trunc(x), rest = x - whole;  // exact
+  return static_cast<std::int64_t>(std::abs(rest) >= 0.5 ? whole + std::copysign(1.0, x) : whole);
 }
 
 // First site at or above a coordinate, counted from the origin.
@@ -76,6 +84,7 @@ Lattice::Lattice(const Case& c)
     inner_last_[axis] = count_[axis] - margin;
     sites *= static_cast<double>(count_[axis]);
   }
+  corner_ = position({0, 0, 0});
   const double available = available_memory();
   if (sites * bytes_per_site > available)
     throw InputError(c.place_of("resolution.spacing") + ": key 'resolution.spacing': the domain holds " +
@@ -94,55 +103,45 @@ Vec3d Lattice::position(const SiteIndex& s) const {
   return p;
 }
 
-bool Lattice::in_domain(const SiteIndex& s) const {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (s[k] < inner_first_[k] || s[k] >= inner_last_[k]) return false;
-  return true;
-}
-
 bool Lattice::in_domain(Vec3d p) const {
   for (int k = 0; k < 3; ++k)
     if (!(flat_ && k == 1) && !(p[k] >= lower_[k] && p[k] < upper_[k])) return false;
   return true;
 }
 
-Vec3d Lattice::wrapped(Vec3d p) const {
-  for (int k = 0; k < 3; ++k) {
-    if (!periodic(k)) continue;
-    const double extent = upper_[k] - lower_[k];
-    p[k] -= extent * std::floor((p[k] - lower_[k]) / extent);
-  }
-  return p;
-}
-
 std::optional<SiteIndex> Lattice::at(Vec3d place) const {
-  const Vec3d from = wrapped(place) - position({0, 0, 0});
+  const Vec3d from = wrapped(place) - corner_;
   SiteIndex s{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     if (count_[k] == 1 && !periodic(axis)) continue;  // the plane of two dimensions
-    s[k] = std::llround(from[axis] / spacing_);
+    s[k] = nearest(from[axis] / spacing_);
     if (periodic(axis) && s[k] == count_[k]) s[k] = 0;
     if (s[k] < 0 || s[k] >= count_[k]) return {};
   }
   return s;
 }
 
-bool Lattice::move(SiteIndex& s, int axis, std::int64_t steps) const {
-  const auto k = static_cast<std::size_t>(axis);
-  s[k] += steps;
-  if (periodic_[k]) s[k] = ((s[k] % count_[k]) + count_[k]) % count_[k];
-  return s[k] >= 0 && s[k] < count_[k];
-}
-
 void Lattice::visit_inside(const Distance& distance, const Visit& visit) const {
-  SiteIndex first{};
-  for (first[2] = 0; first[2] < count_[2]; first[2] += block)
-    for (first[1] = 0; first[1] < count_[1]; first[1] += block)
-      for (first[0] = 0; first[0] < count_[0]; first[0] += block) visit_block(first, distance, visit);
+  const VisitRow row = [&](const SiteIndex& first, std::int64_t count) {
+    SiteIndex s = first;
+    for (; s[0] < first[0] + count; ++s[0]) visit(s, position(s));
+  };
+  for (std::size_t part = 0; part < parts(); ++part) visit_part(part, distance, row);
 }
 
-void Lattice::visit_block(const SiteIndex& first, const Distance& distance, const Visit& visit) const {
+std::size_t Lattice::parts() const {
+  const auto blocks = [&](std::size_t axis) { return (count_[axis] + block - 1) / block; };
+  return static_cast<std::size_t>(blocks(1) * blocks(2));
+}
+
+void Lattice::visit_part(std::size_t part, const Distance& distance, const VisitRow& visit) const {
+  const std::int64_t blocks = (count_[1] + block - 1) / block, number = static_cast<std::int64_t>(part);
+  SiteIndex first{0, block * (number % blocks), block * (number / blocks)};
+  for (; first[0] < count_[0]; first[0] += block) visit_block(first, distance, visit);
+}
+
+void Lattice::visit_block(const SiteIndex& first, const Distance& distance, const VisitRow& visit) const {
   SiteIndex last{};
   for (std::size_t k = 0; k < 3; ++k) last[k] = std::min(first[k] + block, count_[k]) - 1;
   const Vec3d low = position(first), high = position(last);
@@ -152,12 +151,17 @@ void Lattice::visit_block(const SiteIndex& first, const Distance& distance, cons
   const double nudge = tie * spacing_;
   SiteIndex s = first;
   for (s[2] = first[2]; s[2] <= last[2]; ++s[2])
-    for (s[1] = first[1]; s[1] <= last[1]; ++s[1])
-      for (s[0] = first[0]; s[0] <= last[0]; ++s[0]) {
-        const Vec3d p = position(s);
-        const Vec3d q = p + nudge * Vec3d{1, flat_ ? 0 : tie_direction.y, tie_direction.z};
-        if (middle < -radius || distance(q) < 0) visit(s, p);
+    for (s[1] = first[1]; s[1] <= last[1]; ++s[1]) {
+      s[0] = first[0];
+      if (middle < -radius) {
+        visit(s, last[0] + 1 - first[0]);
+        continue;
       }
+      for (; s[0] <= last[0]; ++s[0]) {
+        const Vec3d q = position(s) + nudge * Vec3d{1, flat_ ? 0 : tie_direction.y, tie_direction.z};
+        if (distance(q) < 0) visit(s, 1);
+      }
+    }
 }
 
 Vec3d away_from(const Lattice::Distance& distance, Vec3d p, double step, bool flat) {

@@ -25,6 +25,12 @@ std::string range_of(const Vec3d& lower, const Vec3d& upper);
 struct RegionSites {
   std::size_t all = 0, in_walls = 0, in_earlier_regions = 0, without_room = 0;
   std::vector<std::size_t> in_wall;  // each, of in_walls
+
+  void add(const RegionSites& part) {
+    all += part.all, in_walls += part.in_walls, in_earlier_regions += part.in_earlier_regions;
+    without_room += part.without_room;
+    for (std::size_t b = 0; b < in_wall.size(); ++b) in_wall[b] += part.in_wall[b];
+  }
 };
 
 // Why a region without a particle has none, and what is allowed.

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdio>
 
-#include "host/geometry/falls.hpp"
 #include "host/geometry/start_sites.hpp"
 
 namespace slagflow {
@@ -25,7 +24,7 @@ bool at_surface(const Case& c, const StartSites& sites, std::size_t site) {
 // Mean start pressure of each region; 0 where a part of it hangs together with a free surface.
 std::vector<double> closed_pressure(const Case& c, const Filling& filling) {
   const StartSites& sites = *filling.sites;
-  const FluidBodies bodies = fluid_bodies(c, sites);
+  const FluidBodies& bodies = filling.bodies;
   std::vector<bool> open(static_cast<std::size_t>(bodies.count), false);
   const auto body = [&](std::size_t i) { return static_cast<std::size_t>(bodies.of[i]); };
   for (std::size_t i = 0; i < sites.particles(); ++i)

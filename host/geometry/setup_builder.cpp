@@ -65,22 +65,29 @@ double automatic_shifting(const Case& c, bool closed) {
   return closed && !has_surface_tension(c) && c.numerics.kernel != SmoothingKind::lucy ? 1 : 0;
 }
 
+// Warns of what the case does not mean to start with.
+void look_over(const Filling& filling, BuiltCase& built) {
+  warn_of_settling(built.resolved, filling, built.warnings);
+  warn_of_start(built.resolved, filling, built.warnings);
+  warn_of_crushed_fluid(built.resolved, *filling.sites, built.warnings);
+}
+
 }  // namespace
 
-BuiltCase build_setup(const Case& c) {
-  Filling filling = fill(c);
+BuiltCase build_setup(const Case& c, const Stage& stage) {
+  Filling filling = fill(c, stage);
   BuiltCase built;
   built.resolved = c;
   built.warnings = std::move(filling.warnings);
+  tell(stage, "looking where fluid falls");
   built.sound_speed_terms = sound_speed_terms(c, filling);
   if (!(c.numerics.sound_speed > 0))
     built.resolved.numerics.sound_speed = automatic_sound_speed(c, built.sound_speed_terms);
   const bool closed = c.inlets.empty() && c.outlets.empty() && !has_free_surface(c, filling);
   if (c.numerics.shifting < 0) built.resolved.numerics.shifting = automatic_shifting(c, closed);
   add_background(built, filling, closed);
-  warn_of_settling(built.resolved, filling, built.warnings);
-  warn_of_start(c, filling, built.warnings);
-  warn_of_crushed_fluid(c, *filling.sites, built.warnings);
+  tell(stage, "looking over the start");
+  look_over(filling, built);
   const std::vector<double> wall_speeds = motion_speeds(c, filling.walls);
 
   SimulationSetup& setup = built.setup;

@@ -6,6 +6,7 @@
 
 #include "fluid/setup.hpp"
 #include "host/case/case.hpp"
+#include "host/geometry/geometry.hpp"
 #include "host/geometry/sound_speed.hpp"
 
 namespace slagflow {
@@ -20,6 +21,7 @@ struct BuiltCase {
 // Places the particles of a validated case.
 // Throws InputError: a region without a particle, more particles than fit into memory, a bad STL file,
 // a sound speed that cannot be chosen automatically.
-BuiltCase build_setup(const Case& c);
+// `stage` is told what is being done.
+BuiltCase build_setup(const Case& c, const Stage& stage = {});
 
 }  // namespace slagflow

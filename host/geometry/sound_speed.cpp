@@ -140,7 +140,7 @@ std::vector<double> motion_speeds(const Case& c, const WallParticles& walls) {
 }
 
 std::vector<SoundSpeedTerm> sound_speed_terms(const Case& c, const Filling& filling) {
-  const FluidBodies bodies = fluid_bodies(c, *filling.sites);
+  const FluidBodies& bodies = filling.bodies;
   const double depth = deepest(c, filling.fluid, bodies), g = norm(c.gravity);
   const Squeeze squeezed = squeeze(c, *filling.sites, filling.fluid.fluid);
   const InletSpeeds fed = inlet_speeds(c, filling);

@@ -13,7 +13,7 @@ namespace slagflow {
 // on the fluid it has the pressure of the fluid that it is connected with at its level, the nearest if there
 // are several. Fluid that hangs together and rests on no wall falls, under no pressure. Along a periodic axis
 // nothing is up or down. region: index of each particle's region.
-std::vector<double> start_pressure(const Case& c, const StartSites& sites, const FluidParticles& fluid,
-                                   const std::vector<std::uint32_t>& region);
+std::vector<double> start_pressure(const Case& c, const StartSites& sites, const FluidBodies& bodies,
+                                   const FluidParticles& fluid, const std::vector<std::uint32_t>& region);
 
 }  // namespace slagflow

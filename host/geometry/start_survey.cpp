@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "backend/host_loop.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/geometry/start_sites.hpp"
 
@@ -31,10 +32,7 @@ std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
 class StartSurvey {
  public:
   StartSurvey(const Case& c, const Filling& filling)
-      : c_(c), filling_(filling), sites_(*filling.sites), piece_(sites_.particles(), StartSites::none) {
-    for (std::size_t i = 0; i < piece_.size(); ++i)
-      if (piece_[i] == StartSites::none) label(static_cast<std::int32_t>(i));
-  }
+      : c_(c), filling_(filling), sites_(*filling.sites), piece_(filling.touching.of) {}
 
   void warn(std::vector<std::string>& warnings) const {
     for (std::size_t r = 0; r < c_.regions.size(); ++r) warn_of_pieces(r, warnings);
@@ -45,28 +43,6 @@ class StartSurvey {
 
  private:
   bool flat(int axis) const { return axis == 1 && c_.dimensions == 2; }
-
-  // All that touches a particle's site, corners included.
-  void label(std::int32_t first) {
-    std::vector<std::int32_t> edge{first};
-    piece_[at(first)] = pieces_;
-    while (!edge.empty()) {
-      const SiteIndex here = sites_.index(sites_.site_of(edge.back()));
-      edge.pop_back();
-      for (std::int64_t k = 0; k < 27; ++k) {
-        SiteIndex s = here;
-        const Lattice& lattice = sites_.lattice();
-        if (!lattice.move(s, 0, k % 3 - 1) || !lattice.move(s, 1, k / 3 % 3 - 1) ||
-            !lattice.move(s, 2, k / 9 - 1))
-          continue;
-        const std::int32_t other = sites_.fluid(lattice.linear(s));
-        if (other == StartSites::none || piece_[at(other)] != StartSites::none) continue;
-        piece_[at(other)] = pieces_;
-        edge.push_back(other);
-      }
-    }
-    ++pieces_;
-  }
 
   void warn_of_pieces(std::size_t r, std::vector<std::string>& warnings) const {
     struct Part {
@@ -99,7 +75,7 @@ class StartSurvey {
     std::int32_t particle = StartSites::none;
     std::int64_t open = 0;
   };
-  Met ahead(std::size_t site, int axis) const {
+  Met ahead(const SiteIndex& site, int axis) const {
     for (std::int64_t step = 1; step <= near + 1; ++step) {
       const auto beside = sites_.beside(site, axis, step);
       if (!beside || sites_.wall(*beside) != StartSites::none) return {};
@@ -109,9 +85,10 @@ class StartSurvey {
   }
 
   void warn_of_gap(std::vector<std::string>& warnings) const {
-    for (std::size_t i = 0; i < piece_.size(); ++i)
+    for (std::size_t i = 0; filling_.touching.count > 1 && i < piece_.size(); ++i) {
+      const SiteIndex site = sites_.index(sites_.taken()[i]);
       for (int axis = 0; axis < 3; ++axis) {
-        const Met met = flat(axis) ? Met{} : ahead(sites_.taken()[i], axis);
+        const Met met = flat(axis) ? Met{} : ahead(site, axis);
         if (met.particle == StartSites::none || piece_[at(met.particle)] == piece_[i]) continue;
         const std::uint32_t one = filling_.region[i], other = filling_.region[at(met.particle)];
         warnings.push_back("fluid of region " + std::to_string(one) + " and of region " +
@@ -121,14 +98,15 @@ class StartSurvey {
                            "; were they to touch? Then let their shapes share a face");
         return;
       }
+    }
   }
 
   // Particles of the same fluid in a row with one, itself included, up to `thin`.
-  std::int64_t across(std::size_t i, int axis) const {
+  std::int64_t across(std::size_t i, const SiteIndex& site, int axis) const {
     std::int64_t count = 1;
     for (const std::int64_t way : {-1, 1})
       for (std::int64_t step = 1; step < thin && count < thin; ++step) {
-        const auto beside = sites_.beside(sites_.taken()[i], axis, way * step);
+        const auto beside = sites_.beside(site, axis, way * step);
         const std::int32_t other = beside ? sites_.fluid(*beside) : StartSites::none;
         if (other == StartSites::none || filling_.fluid.fluid[at(other)] != filling_.fluid.fluid[i]) break;
         ++count;
@@ -136,15 +114,30 @@ class StartSurvey {
     return count;
   }
 
+  using Counts = std::vector<std::array<std::size_t, thin + 1>>;  // of each region, by particles across
+
+  Counts counts_across() const {
+    constexpr std::size_t at_once = 1 << 15;
+    std::vector<Counts> parts((piece_.size() + at_once - 1) / at_once, Counts(c_.regions.size()));
+    for_each_range(piece_.size(), at_once, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const SiteIndex site = sites_.index(sites_.taken()[i]);
+        std::int64_t least = thin;
+        for (int axis = 0; axis < 3; ++axis)
+          if (!flat(axis)) least = std::min(least, across(i, site, axis));
+        ++parts[first / at_once][filling_.region[i]][static_cast<std::size_t>(least)];
+      }
+    });
+    Counts counts(c_.regions.size());
+    for (const Counts& part : parts)
+      for (std::size_t r = 0; r < counts.size(); ++r)
+        for (std::size_t k = 0; k < counts[r].size(); ++k) counts[r][k] += part[r][k];
+    return counts;
+  }
+
   // By the median of a region's particles.
   void warn_of_thinnest(std::vector<std::string>& warnings) const {
-    std::vector<std::array<std::size_t, thin + 1>> counts(c_.regions.size());
-    for (std::size_t i = 0; i < piece_.size(); ++i) {
-      std::int64_t least = thin;
-      for (int axis = 0; axis < 3; ++axis)
-        if (!flat(axis)) least = std::min(least, across(i, axis));
-      ++counts[filling_.region[i]][static_cast<std::size_t>(least)];
-    }
+    const Counts counts = counts_across();
     std::size_t thinnest = 0, layers = thin;
     for (std::size_t r = 0; r < counts.size(); ++r) {
       const std::size_t all = counts[r][1] + counts[r][2] + counts[r][3];
@@ -180,8 +173,7 @@ class StartSurvey {
   const Case& c_;
   const Filling& filling_;
   const StartSites& sites_;
-  std::vector<std::int32_t> piece_;  // of each particle
-  std::int32_t pieces_ = 0;
+  const std::vector<std::int32_t>& piece_;  // of each particle
 };
 
 }  // namespace

@@ -63,17 +63,25 @@ bool WallSurvey::open_at(Vec3d p, std::size_t body) const {
   return lattice_.in_domain(lattice_.wrapped(p)) && distance(p, body) >= 0;
 }
 
-void WallSurvey::placed(Vec3d p, std::size_t body, const WallFace& face) {
+WallSurvey::Look WallSurvey::look(Vec3d p, std::size_t body, const WallFace& face) const {
+  Look look;
+  look.foot = p + face.depth * face.normal;
+  look.thickness = std::numeric_limits<double>::infinity();
+  if (!open_at(look.foot + (touch * spacing_) * face.normal, body)) return look;
+  look.thickness = thickness(look.foot, face.normal, body);
+  look.step = face.depth < spacing_ && has_step(look.foot, face.normal, body);
+  return look;
+}
+
+void WallSurvey::placed(std::size_t body, const Look& look) {
   ++particles_[body];
-  const Vec3d foot = p + face.depth * face.normal;
-  if (!open_at(foot + (touch * spacing_) * face.normal, body)) return;
-  const double thick = thickness(foot, face.normal, body);
   Thin& thin = thin_[body];
-  if (thick < least_thickness - rounding) {
-    if (thin.count == 0 || thick < thin.thickness - touch) thin.thickness = thick, thin.first = foot;
+  if (look.thickness < least_thickness - rounding) {
+    if (thin.count == 0 || look.thickness < thin.thickness - touch)
+      thin.thickness = look.thickness, thin.first = look.foot;
     ++thin.count;
   }
-  if (face.depth < spacing_ && has_step(foot, face.normal, body)) steps_[body].add(foot);
+  if (look.step) steps_[body].add(look.foot);
 }
 
 // Along the normal into the wall [spacings], beyond the domain too; infinite from three on.
@@ -140,12 +148,13 @@ std::vector<WallSurvey::Pose> WallSurvey::poses(const WallMotion& motion) const 
   return poses;
 }
 
-void WallSurvey::covered(Vec3d p, std::size_t body) {
+bool WallSurvey::comes_out(Vec3d p, std::size_t body) const {
   const Vec3d center = c_.walls[body].motion.center;
   for (const Pose& pose : poses_[body]) {
     const Vec3d there = lattice_.wrapped(center + pose.shift + pose.turned * (p - center));
-    if (lattice_.in_domain(there) && open_beside(there)) return covered_[body].add(p);
+    if (lattice_.in_domain(there) && open_beside(there)) return true;
   }
+  return false;
 }
 
 // Whether no wall at rest is there.

@@ -13,17 +13,24 @@ class WallSurvey {
  public:
   WallSurvey(const Case& c, const Lattice& lattice, const WallSolids& solids);
 
-  // A particle at `p` in a wall, whose face is in the domain. The wall is thin where it ends less than three
-  // spacings behind that, along the normal, with a face that looks the other way: not at the corner of two
-  // faces that meet at 60 degrees or more. The domain may cut it. It has a step where the wall rises on one
-  // side and falls on the other within 1.8 spacings.
-  void placed(Vec3d p, std::size_t body, const WallFace& face);
+  struct Look {
+    Vec3d foot;            // [m] on the face
+    double thickness = 0;  // [spacings] behind it; infinite from three on, and where the face borders nothing
+    bool step = false;
+  };
+  // At a particle at `p` in a wall, whose face is in the domain. The wall is thin where it ends less than
+  // three spacings behind that, along the normal, with a face that looks the other way: not at the corner of
+  // two faces that meet at 60 degrees or more. The domain may cut it. It has a step where the wall rises on
+  // one side and falls on the other within 1.8 spacings.
+  Look look(Vec3d p, std::size_t body, const WallFace& face) const;
+  void placed(std::size_t body, const Look& look);
   // A site in a wall of which no face is known; it gets no particle.
   void dropped(Vec3d p, std::size_t body) { dropped_[body].add(p); }
 
   // A site in a wall that moves, and in another at rest that keeps it: what comes out of there is missing.
   // A few places of the way are looked at.
-  void covered(Vec3d p, std::size_t body);
+  bool comes_out(Vec3d p, std::size_t body) const;
+  void covered(Vec3d p, std::size_t body) { covered_[body].add(p); }
 
   // One line for each wall and kind.
   std::vector<std::string> warnings() const;

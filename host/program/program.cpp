@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -26,6 +27,7 @@
 #include "host/program/rheometry_command.hpp"
 #include "host/rheometry/rheometry.hpp"
 #include "host/run/check.hpp"
+#include "host/run/progress.hpp"
 #include "host/run/run.hpp"
 #include "version.hpp"
 
@@ -86,8 +88,13 @@ int resume(Arguments arguments) {
 }
 
 int check(const Arguments& arguments) {
-  const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides));
-  const CaseCheck found = check_case(built, machine_speed(built.setup.dimensions, arguments.calibrate));
+  std::optional<StartProgress> progress(Verbosity::normal);
+  const BuiltCase built = build_setup(load_case(arguments.file, arguments.overrides), progress->stage());
+  progress->stage()("timing this machine");
+  const MachineSpeed machine = machine_speed(built.setup.dimensions, arguments.calibrate);
+  progress->stage()("looking at fluid and walls");
+  const CaseCheck found = check_case(built, machine);
+  progress.reset();
   if (arguments.json)
     print(Json::object().set("case", arguments.file).set("valid", true).set("check", to_json(found)).text() +
           "\n");

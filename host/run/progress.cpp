@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace slagflow {
 namespace {
@@ -63,6 +64,37 @@ void Progress::update(const ProgressState& state) {
     shown_ = now;
     log_.status(cut_to_terminal(progress_line(state, wall)));
   }
+}
+
+StageLine::StageLine(Show show, Times times)
+    : show_(std::move(show)), thread_([this, times] { tell(times); }) {}
+
+StageLine::~StageLine() {
+  {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    ended_ = true;
+  }
+  ends_.notify_all();
+  thread_.join();
+}
+
+void StageLine::stage(const char* what) {
+  const std::lock_guard<std::mutex> guard(mutex_);
+  what_ = what;
+}
+
+void StageLine::tell(const Times& times) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (auto wait = times.before; !ends_.wait_for(lock, wait, [this] { return ended_; });
+       wait = times.between) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    show_(std::string(what_) + ", " + std::to_string(std::lround(seconds)) + " s");
+  }
+}
+
+StartProgress::StartProgress(Verbosity verbosity) : log_(verbosity) {
+  if (isatty(STDERR_FILENO) == 1 && verbosity != Verbosity::quiet)
+    line_.emplace([this](const std::string& line) { log_.status(cut_to_terminal(line)); });
 }
 
 }  // namespace slagflow

@@ -2,8 +2,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
 #include <string>
+#include <thread>
 
 #include "host/run/log.hpp"
 
@@ -35,6 +40,50 @@ class Progress {
   double wall_before_;
   bool terminal_;
   Clock::time_point start_ = Clock::now(), shown_ = start_, logged_ = start_;
+};
+
+// What is being done, and for how long, when that takes longer than about a second.
+class StageLine {
+ public:
+  using Show = std::function<void(const std::string&)>;
+  struct Times {
+    std::chrono::milliseconds before, between;
+  };
+
+  // `show` is called from a thread of its own, until this ends.
+  explicit StageLine(Show show, Times times = {std::chrono::seconds(1), std::chrono::milliseconds(500)});
+  ~StageLine();
+  StageLine(const StageLine&) = delete;
+  StageLine& operator=(const StageLine&) = delete;
+
+  void stage(const char* what);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void tell(const Times& times);
+
+  Show show_;
+  Clock::time_point start_ = Clock::now();
+  std::mutex mutex_;
+  std::condition_variable ends_;
+  const char* what_ = "";
+  bool ended_ = false;
+  std::thread thread_;  // last: it uses the others
+};
+
+// The same on stderr where that is a terminal; cleared at the end.
+class StartProgress {
+ public:
+  explicit StartProgress(Verbosity verbosity);
+  std::function<void(const char*)> stage() {
+    return [this](const char* what) {
+      if (line_) line_->stage(what);
+    };
+  }
+
+ private:
+  Log log_;
+  std::optional<StageLine> line_;
 };
 
 }  // namespace slagflow

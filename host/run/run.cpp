@@ -9,6 +9,7 @@
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/check.hpp"
+#include "host/run/progress.hpp"
 #include "host/run/run_folder.hpp"
 #include "host/run/run_interrupt.hpp"
 #include "host/run/run_loop.hpp"
@@ -59,7 +60,10 @@ RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
   const std::string folder = run_folder(c, options);
   require_free_folder(folder, options.overwrite);
   require_not_the_case(folder, c.file);
-  BuiltCase built = build_setup(limited);
+  BuiltCase built = [&] {
+    StartProgress progress(options.verbosity);
+    return build_setup(limited, progress.stage());
+  }();
   if (start) take_state(*start, built);
   built.setup.time_parts = options.time_parts;
   const double on_device = device_info().memory;

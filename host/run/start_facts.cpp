@@ -5,99 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
-#include <unordered_map>
 
 #include "host/geometry/geometry.hpp"
 
 namespace slagflow {
 namespace {
-
-using Site = std::array<std::int64_t, 3>;
-
-// The particles of the start by their sites.
-class Sites {
- public:
-  Sites(const SimulationSetup& setup, Vec3d origin) : setup_(setup) {
-    const std::vector<Vec3d>& all = setup.particles.position;
-    site_.reserve(all.size()), particle_.reserve(all.size());
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Site site{};
-      for (int k = 0; k < 3; ++k)
-        site[static_cast<std::size_t>(k)] = std::llround((all[i][k] - origin[k]) / setup.spacing - 0.5);
-      site_.push_back(site), particle_.emplace(number(site), i);
-    }
-  }
-
-  std::size_t count() const { return site_.size(); }
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  // The particle some sites away.
-  std::size_t beside(std::size_t i, const Site& by) const {
-    const Site& own = site_[i];
-    const auto found = particle_.find(number({own[0] + by[0], own[1] + by[1], own[2] + by[2]}));
-    return found == particle_.end() ? none : found->second;
-  }
-
-  // Particles of the same fluid in the shortest row through one along an axis.
-  double across(std::size_t i) const {
-    std::int64_t least = longest;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!(axis == 1 && setup_.dimensions == 2)) least = std::min(least, row(i, axis));
-    return static_cast<double>(least);
-  }
-
- private:
-  static constexpr std::int64_t longest = 100;
-
-  // 21 bits an axis.
-  static std::uint64_t number(const Site& site) {
-    std::uint64_t all = 0;
-    for (const std::int64_t place : site) all = (all << 21) | (static_cast<std::uint64_t>(place) & 0x1fffff);
-    return all;
-  }
-  int kind(std::size_t i) const { return i < setup_.particles.fluid.size() ? setup_.particles.fluid[i] : 0; }
-
-  std::int64_t row(std::size_t i, std::size_t axis) const {
-    std::int64_t count = 1;
-    for (const std::int64_t way : {-1, 1})
-      for (std::int64_t step = 1; step < longest; ++step) {
-        Site by{};
-        by[axis] = way * step;
-        const std::size_t other = beside(i, by);
-        if (other == none || kind(other) != kind(i)) break;
-        ++count;
-      }
-    return count;
-  }
-
-  const SimulationSetup& setup_;
-  std::vector<Site> site_;
-  std::unordered_map<std::uint64_t, std::size_t> particle_;
-};
-
-// All that hangs together with a particle.
-std::vector<std::size_t> piece_of(const Sites& sites, std::size_t first, std::vector<bool>& taken) {
-  std::vector<std::size_t> piece{first};
-  taken[first] = true;
-  for (std::size_t next = 0; next < piece.size(); ++next)
-    for (std::int64_t k = 0; k < 27; ++k) {
-      const std::size_t other = sites.beside(piece[next], {k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1});
-      if (other == Sites::none || taken[other]) continue;
-      taken[other] = true;
-      piece.push_back(other);
-    }
-  return piece;
-}
-
-// Of a sample where there are many.
-double median_across(const Sites& sites, const std::vector<std::size_t>& piece) {
-  constexpr std::size_t looked_at = 2000;
-  std::vector<double> across;
-  for (std::size_t k = 0; k < piece.size(); k += std::max<std::size_t>(1, piece.size() / looked_at))
-    across.push_back(sites.across(piece[k]));
-  const auto middle = across.begin() + static_cast<std::ptrdiff_t>(across.size() / 2);
-  std::nth_element(across.begin(), middle, across.end());
-  return *middle;
-}
 
 // The surface of a wall, looked through along its normal.
 class WallLook {
@@ -146,24 +58,6 @@ void add_stl(const std::vector<ShapeSpec>& shapes, const Case& c, std::set<std::
     lines.insert(stl->file + text.data());
   }
 }
-
-}  // namespace
-
-std::vector<FluidPiece> fluid_pieces(const SimulationSetup& setup, Vec3d origin) {
-  const Sites sites(setup, origin);
-  std::vector<FluidPiece> pieces;
-  std::vector<bool> taken(sites.count());
-  for (std::size_t i = 0; i < sites.count(); ++i) {
-    if (taken[i]) continue;
-    const std::vector<std::size_t> piece = piece_of(sites, i, taken);
-    pieces.push_back({piece.size(), setup.particles.position[i], median_across(sites, piece)});
-  }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const FluidPiece& a, const FluidPiece& b) { return a.particles > b.particles; });
-  return pieces;
-}
-
-namespace {
 
 // How far is looked [spacings]; through a wall that takes up heat as far as that gets in the run.
 double depth_of_interest(const SimulationSetup& setup, std::size_t body) {

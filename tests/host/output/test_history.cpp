@@ -1,8 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <thread>
 
 #include "backend/error.hpp"
 #include "host/output/history.hpp"
@@ -110,6 +113,49 @@ TEST(Progress, TellsShareRatesAndTimeLeft) {
   EXPECT_THAT(line, testing::HasSubstr("1e+05 particle-steps/s"));
   EXPECT_THAT(line, testing::HasSubstr("2.5 iterations"));
   EXPECT_THAT(line, testing::HasSubstr("0:30 min left"));
+}
+
+TEST(StageLine, TellsTheStageUntilItEnds) {
+  using std::chrono::milliseconds;
+  std::mutex mutex;
+  std::vector<std::string> lines;
+  const auto last = [&] {
+    const std::lock_guard<std::mutex> guard(mutex);
+    return lines.empty() ? std::string() : lines.back();
+  };
+  {
+    StageLine line(
+        [&](const std::string& told) {
+          const std::lock_guard<std::mutex> guard(mutex);
+          lines.push_back(told);
+        },
+        {milliseconds(1), milliseconds(1)});
+    for (const char* const what : {"filling the regions", "placing wall particles"}) {
+      line.stage(what);
+      while (last().rfind(std::string(what) + ", ", 0) != 0) std::this_thread::sleep_for(milliseconds(1));
+    }
+  }
+  const std::size_t told = lines.size();
+  std::this_thread::sleep_for(milliseconds(20));
+  EXPECT_EQ(lines.size(), told);
+}
+
+TEST(StageLine, IsSilentWhereTheWorkIsShort) {
+  std::vector<std::string> lines;
+  {
+    StageLine([&](const std::string& told) { lines.push_back(told); }).stage("filling the regions");
+  }
+  EXPECT_TRUE(lines.empty());
+}
+
+TEST(StartProgress, SaysNothingWithoutATerminal) {
+  testing::internal::CaptureStderr();
+  {
+    StartProgress progress(Verbosity::normal);
+    progress.stage()("filling the regions");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace
