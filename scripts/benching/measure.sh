@@ -18,6 +18,7 @@ done
 mkdir -p "$results" || exit 1
 results=$(cd "$results" && pwd)
 export SLAGFLOW_SOURCE=$here
+export OMP_WAIT_POLICY=passive  # or else slagflow starts itself anew to set it, which the loader below does not let it
 
 # Its own C library: that of the machine may be older.
 program() {
