@@ -238,6 +238,14 @@ struct Case {
   // Dotted key -> where it was given ("FILE:LINE" or "--set key=value"), for messages.
   std::map<std::string, std::string> places;
 
+  // [s] from which on nothing moves: the end of the run, or thermal.flow_until before it.
+  double flow_end() const {
+    return thermal.on && thermal.flow_until < output.last_time() ? thermal.flow_until : output.last_time();
+  }
+  const char* what_ends_it() const {
+    return flow_end() < output.last_time() ? "flow, thermal.flow_until," : "run";
+  }
+
   // Where a key or, failing that, the table around it was given; the file if neither is known.
   std::string place_of(const std::string& key) const;
 };

@@ -121,8 +121,25 @@ std::vector<Vec3d> body_of(const InletColumns& in) {
   return places;
 }
 
-// Whether the bodies of two inlets have a place in common.
-bool meet(const Case& c, const InletColumns& a, const InletColumns& b) {
+// The shifts by which a place comes again along periodic axes, none among them.
+std::vector<Vec3d> images(const Case& c) {
+  std::vector<Vec3d> shifts{{}};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!c.domain.periodic[static_cast<std::size_t>(axis)]) continue;
+    const double period = c.domain.upper[axis] - c.domain.lower[axis];
+    const std::size_t before = shifts.size();
+    for (std::size_t k = 0; k < before; ++k)
+      for (const double way : {-period, period}) {
+        Vec3d shift = shifts[k];
+        shift[axis] = way;
+        shifts.push_back(shift);
+      }
+  }
+  return shifts;
+}
+
+// Whether the bodies of two inlets have a place in common, the second shifted.
+bool meet(const Case& c, const InletColumns& a, const InletColumns& b, Vec3d shift) {
   const double near = 0.7 * c.spacing;
   const auto cell = [&](Vec3d p) {
     std::array<std::int64_t, 3> k{};
@@ -132,7 +149,8 @@ bool meet(const Case& c, const InletColumns& a, const InletColumns& b) {
   };
   std::multimap<std::array<std::int64_t, 3>, Vec3d> places;
   for (const Vec3d& p : body_of(a)) places.emplace(cell(p), p);
-  for (const Vec3d& q : body_of(b))
+  for (Vec3d q : body_of(b)) {
+    q += shift;
     for (std::int64_t n = 0; n < 27; ++n) {
       const auto at = cell(q);
       const auto [first, last] =
@@ -140,6 +158,7 @@ bool meet(const Case& c, const InletColumns& a, const InletColumns& b) {
       for (auto p = first; p != last; ++p)
         if (norm(p->second - q) < near) return true;
     }
+  }
   return false;
 }
 
@@ -173,13 +192,21 @@ void warn_of_outlet(const Case& c, const OutletSpec& out, const std::vector<Inle
 
 // Bodies are there as walls before an inlet starts and after it has stopped too.
 void require_apart(const Case& c, const std::vector<InletColumns>& inlets) {
-  for (std::size_t a = 0; a < inlets.size(); ++a)
-    for (std::size_t b = a + 1; b < inlets.size(); ++b)
-      if (meet(c, inlets[a], inlets[b]))
-        refuse_inlet(c, b, "",
-                     "its body, the six spacings behind its face, meets that of inlet '" + c.inlets[a].name +
-                         "', and both are there all the time: allowed: bodies that do not meet; one inlet "
-                         "with a table over time feeds at one place");
+  for (const Vec3d& shift : images(c))
+    for (std::size_t a = 0; a < inlets.size(); ++a) {
+      if (norm(shift) > 0 && meet(c, inlets[a], inlets[a], shift))
+        refuse_inlet(
+            c, a, "",
+            "its body, the six spacings behind its face, meets itself across a periodic face: allowed: a "
+            "face no wider than the period");
+      for (std::size_t b = a + 1; b < inlets.size(); ++b)
+        if (meet(c, inlets[a], inlets[b], shift))
+          refuse_inlet(c, b, "",
+                       "its body, the six spacings behind its face, meets that of inlet '" +
+                           c.inlets[a].name +
+                           "', and both are there all the time: allowed: bodies that do not meet; one inlet "
+                           "with a table over time feeds at one place");
+    }
 }
 
 namespace {
@@ -191,13 +218,14 @@ void warn_of_feed(const Case& c, const InletSpec& spec, const InletColumns& in,
                   std::vector<std::string>& warnings) {
   constexpr double few_rows = 10;
   const std::string name = "inlet '" + spec.name + "'";
-  if (spec.start >= c.output.last_time())
-    return warnings.push_back(name + " starts after the end of the run");
+  if (spec.start >= c.flow_end())
+    return warnings.push_back(name + " starts after the end of the " + c.what_ends_it() + " at " +
+                              show(c.flow_end()) + " s: it feeds nothing");
   const FeedRate rate = feed_rate(c, spec, in.area);
   if (rate.fastest() > fast_feed)
     warnings.push_back(name + ": " + feed_text(c, spec, in.area) +
                        ", faster than anything is poured; is the unit right?");
-  const double rows = rate.travelled(c.output.last_time()) / in.stride;
+  const double rows = rate.travelled(c.flow_end()) / in.stride;
   if (rows >= few_rows) return;
   std::array<char, 200> text{};
   std::snprintf(

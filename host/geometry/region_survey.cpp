@@ -53,10 +53,10 @@ bool spans_domain(const Case& c, const Extents& e) {
   return false;
 }
 
-// The part of it that is meant: along axes that it spans, or that repeat, that in the domain.
+// The part of it that is meant: along axes that it spans, that in the domain.
 Extents meant(const Case& c, Extents e) {
   for (int k = 0; k < 3; ++k) {
-    if (!counts(c, k) || !(c.domain.periodic[static_cast<std::size_t>(k)] || spans(c, e, k))) continue;
+    if (!counts(c, k) || !spans(c, e, k)) continue;
     e.lower[k] = std::max(e.lower[k], c.domain.lower[k]),
     e.upper[k] = std::min(e.upper[k], c.domain.upper[k]);
   }

@@ -62,12 +62,13 @@ void warn_of_angle(const WallSpec& wall, std::vector<std::string>& warnings) {
 }
 
 void warn_of_times(const Case& c, const WallSpec& wall, std::vector<std::string>& warnings) {
-  const double end = c.output.last_time();
+  const double end = c.flow_end();
   const WallMotion& motion = wall.motion;
   const auto late = [&](const char* key, double time) {
     if (time < WallMotion::never && time > end)
       warnings.push_back("wall '" + wall.name + "': " + key + " = " + show(time) +
-                         " s is after the end of the run at " + show(end) + " s: it has no effect");
+                         " s is after the end of the " + c.what_ends_it() + " at " + show(end) +
+                         " s: it has no effect");
   };
   late("remove_at", motion.remove_at);
   if (motion.kind == MotionKind::rest) return;

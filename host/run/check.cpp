@@ -144,8 +144,7 @@ TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
 void add_time_step(CaseCheck& check, const BuiltCase& built) {
   const TimeStep step = time_step(built.setup, built.setup.numerics.sound_speed);
   check.time_step = step.length, check.time_step_reason = step.reason;
-  const double last = built.resolved.output.last_time(),
-               flows = std::min(last, built.setup.thermal.flow_until);
+  const double last = built.resolved.output.last_time(), flows = built.resolved.flow_end();
   double cooling = conduction_time_step(built.setup);
   if (built.setup.numerics.max_time_step > 0) cooling = std::min(cooling, built.setup.numerics.max_time_step);
   check.steps = std::ceil(flows / check.time_step) + std::ceil((last - flows) / cooling);
@@ -168,6 +167,30 @@ void add_sound_speeds(CaseCheck& check, const BuiltCase& built) {
                      time_step(built.setup, first.sound_speed()).length / step.length, first.name.c_str());
     check.sound_speeds.push_back(line + (term.name == rules ? "; auto takes it" : ""));
   }
+}
+
+// Of the grid over the domain, beyond the few for each particle that its memory is reckoned with.
+double empty_cells(const SimulationSetup& setup) {
+  constexpr double a_particle = 8, usual_most = 1 << 24;
+  const double width = setup.support_ratio * setup.spacing * (1 + setup.numerics.skin);
+  const auto particles = static_cast<double>(setup.particles.position.size() + setup.walls.position.size());
+  double cells = 1;
+  for (int k = 0; k < 3; ++k)
+    cells *= std::max(1.0, std::floor((setup.domain.upper[k] - setup.domain.lower[k]) / width));
+  return std::max(0.0,
+                  std::min(cells, std::max(usual_most, a_particle * particles)) - a_particle * particles);
+}
+
+void warn_of_empty_cells(const SimulationSetup& setup, std::int64_t fed, std::vector<std::string>& warnings) {
+  constexpr double few = 100, many = 1e6;  // for each particle, and in all
+  const double empty = empty_cells(setup), particles = static_cast<double>(setup.particles.position.size()) +
+                                                       static_cast<double>(setup.walls.position.size()) +
+                                                       static_cast<double>(fed);
+  if (empty > few * particles && empty > many)
+    warnings.push_back(
+        format("the domain has %.2g cells without a particle, which take more time in each step than the "
+               "%.0f particles do: a smaller domain is faster",
+               empty, particles));
 }
 
 constexpr double most_steps = 1e9;
@@ -196,6 +219,7 @@ void add_warnings(CaseCheck& check, const BuiltCase& built) {
         "%.2g steps to output.end_time = %g s, more than 1e9: a run of years; an earlier end_time, a larger "
         "resolution.spacing or a lower numerics.sound_speed, which is %.4g m/s, makes it shorter",
         check.steps, built.resolved.output.last_time(), check.sound_speed));
+  warn_of_empty_cells(built.setup, check.fed, check.warnings);
   if (check.depth < 4 * check.spacing || check.width < 4 * check.spacing)
     check.warnings.push_back("the fluid is less than 4 particles deep or wide: the resolution is too coarse");
 }
@@ -257,14 +281,15 @@ double memory_of(const SimulationSetup& setup, double last_time) {
   const auto fed =
       static_cast<double>(fed_particles(setup, last_time) - fed_particles(setup, setup.start_time));
   return bytes_per_fluid_particle * (static_cast<double>(setup.particles.position.size()) + fed) +
-         bytes_per_wall_particle * static_cast<double>(setup.walls.position.size());
+         bytes_per_wall_particle * static_cast<double>(setup.walls.position.size()) +
+         bytes_per_cell * empty_cells(setup);
 }
 
 // Where most of it is for what an inlet brings.
 void refuse_feed(const BuiltCase& built, double needed, double available) {
   const SimulationSetup& setup = built.setup;
   const Case& c = built.resolved;
-  const double last = c.output.last_time();
+  const double last = c.flow_end();
   std::size_t most = 0;
   const auto volume = [&](std::size_t k) {
     return columns_area(setup, setup.inlets[k]) * setup.inlets[k].rate.travelled(last);
@@ -285,7 +310,7 @@ void refuse_feed(const BuiltCase& built, double needed, double available) {
 
 void require_memory(const BuiltCase& built, double available) {
   const SimulationSetup& setup = built.setup;
-  const double needed = memory_of(setup, built.resolved.output.last_time());
+  const double needed = memory_of(setup, built.resolved.flow_end());
   if (needed <= available) return;
   refuse_feed(built, needed, available);
   const char* key = "resolution.spacing";
@@ -312,7 +337,7 @@ CaseCheck check_case(const BuiltCase& built, const MachineSpeed& machine) {
   add_numbers(check, setup);
   check.mach = check.speed / check.sound_speed;
   check.exits = exits_text(built.resolved);
-  const double last = built.resolved.output.last_time();
+  const double last = built.resolved.flow_end();
   check.memory = memory_of(setup, last);
   check.fed = fed_particles(setup, last) - fed_particles(setup, setup.start_time);
   for (const InletSetup& in : setup.inlets) check.inlets.push_back(inlet_text(setup, in, last));

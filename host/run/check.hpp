@@ -18,6 +18,7 @@ namespace slagflow {
 // particle, the device 1.65 kB of them; 3231 steps take 9.4 minutes on two cores.
 inline constexpr double bytes_per_fluid_particle = 2000;
 inline constexpr double bytes_per_wall_particle = 300;
+inline constexpr double bytes_per_cell = 60;  // of the grid over the domain, beyond a few for each particle
 inline constexpr double particle_steps_per_second = 5.8e5;  // fluid particles, two cores
 // In particles.vtkhdf and walls.vtkhdf, of a particle in a snapshot.
 inline constexpr double bytes_per_snapshot_particle = 70, bytes_per_snapshot_wall = 29;

@@ -23,7 +23,6 @@ if(NOT SLAGFLOW_COMPACT)
 elseif(CMAKE_CUDA_COMPILER_VERSION VERSION_GREATER_EQUAL 12.8)
   set(readable -compress-mode=size)
 endif()
-target_compile_options(slagflow_backend INTERFACE
-  $<$<COMPILE_LANGUAGE:CUDA>:--extended-lambda --expt-relaxed-constexpr
-  ${readable} ${strict} "SHELL:-Xcompiler -Wall,-Wextra">)
+set(flags --extended-lambda --expt-relaxed-constexpr ${readable} ${strict} "SHELL:-Xcompiler -Wall,-Wextra")
+target_compile_options(slagflow_backend INTERFACE "$<$<COMPILE_LANGUAGE:CUDA>:${flags}>")
 set_property(TARGET slagflow_backend PROPERTY INTERFACE_POSITION_INDEPENDENT_CODE ON)

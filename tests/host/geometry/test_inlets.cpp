@@ -256,6 +256,23 @@ TEST(InletFaces, TwoAtOnePlaceAreRefused) {
   EXPECT_EQ(refusal(c), "none");
 }
 
+TEST(InletFaces, ThoseThatMeetAcrossAPeriodicFaceAreRefused) {
+  InletSpec in = inlet(InletFace::rectangle, {20, 0, 20}, {1, 0, 0});
+  in.width = in.height = 6;
+  Case c = with(in);
+  c.domain.periodic = {false, true, false};
+  c.inlets.push_back(in);
+  c.inlets[1].name = "other", c.inlets[1].center.y = 40;  // the same face
+  EXPECT_THAT(refusal(c), HasSubstr("key 'inlet.1': its body, the six spacings behind its face, meets that"));
+  c.inlets[1].center.y = 20;
+  EXPECT_EQ(refusal(c), "none");
+  c.inlets.pop_back(), c.inlets[0].width = 40;  // once around
+  EXPECT_EQ(refusal(c), "none");
+  c.inlets[0].width = 50;
+  EXPECT_THAT(refusal(c),
+              HasSubstr("key 'inlet.0': its body, the six spacings behind its face, meets itself"));
+}
+
 // In the open the columns are a body with sides; in a wall they have none.
 TEST(InletFaces, HaveSidesWhereFluidMayCome) {
   InletSpec in = inlet(InletFace::rectangle, {20, 20, 20}, {1, 0, 0});

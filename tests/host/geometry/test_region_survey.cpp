@@ -122,6 +122,12 @@ TEST(RegionSurvey, WhatIsCutIsTold) {
   EXPECT_THAT(warnings(with_region(box({4, 4, 4}, {10, 6, 6}))), Not(Contains(HasSubstr("outside"))));
   EXPECT_THAT(warnings(with_region({PlaneSpec{{0, 0, 5}, {0, 0, 1}}, false})),
               Not(Contains(HasSubstr("outside"))));
+  Case seam = with_region(box({8, 4, 4}, {12, 6, 6}));  // shapes do not come round a periodic face
+  seam.domain.periodic = {true, false, false};
+  EXPECT_THAT(warnings(seam), Contains(HasSubstr("region 0 lies partly outside the domain: 50 % of it")));
+  seam = with_region(box({-1, 4, 4}, {12, 6, 6}));
+  seam.domain.periodic = {true, false, false};
+  EXPECT_THAT(warnings(seam), Not(Contains(HasSubstr("outside"))));
   Case c = with_region(box({1, 1, 1}, {9, 9, 9}));
   c.walls = {wall("block", {box({0, 0, 0}, {10, 10, 6})})};
   EXPECT_THAT(warnings(c),

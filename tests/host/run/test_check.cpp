@@ -150,6 +150,17 @@ TEST(CaseCheck, PassesOnWarnings) {
   EXPECT_THAT(to_text(check_case(built)), testing::HasSubstr("warning: something odd"));
 }
 
+TEST(CaseCheck, ADomainOfEmptyCellsIsTold) {
+  BuiltCase built = block();
+  built.setup.domain.upper = {0.2, 0.2, 0.2};
+  const auto empty = testing::HasSubstr("cells without a particle");
+  EXPECT_THAT(to_text(check_case(built)), testing::Not(empty));
+  built.setup.domain.upper = {6, 6, 6};
+  const CaseCheck check = check_case(built);
+  EXPECT_THAT(to_text(check), empty);
+  EXPECT_GT(check.memory, 60e7);
+}
+
 TEST(Check, RefusesWhatNeedsMoreMemoryThanThereIs) {
   const BuiltCase built = build_setup(parse_case(testing_tools::tiny_case(), "tiny.toml"));
   EXPECT_NO_THROW(require_memory(built, 1e9));

@@ -159,6 +159,26 @@ TEST_F(RunFrom, KeepsVolumesAndCompressionsOfADenserFluidAndPressuresWithAnother
   }
 }
 
+// A state may be of a moment when particles had left that were not yet removed.
+TEST_F(RunFrom, WhatHasJustLeftMayBeInTheState) {
+  const StartState start = find_state(folder_ / "old");
+  const auto refused = [&](const std::vector<KeyChange>& changes) -> std::string {
+    BuiltCase built =
+        build_setup(parse_case(start.checkpoint.text("case_text"), "old", {on_[0], "output.until=0.012"}));
+    start_from(start, built);
+    built.setup.particles.position[0].x = built.setup.domain.upper.x + 1e-3;
+    try {
+      require_startable(start, built, changes);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(refused({}), "none");
+  EXPECT_THAT(refused({{"domain.max", "[1, 1, 1]", "[0.5, 1, 1]"}}),
+              HasSubstr("1 particles of the state are outside of the domain"));
+}
+
 TEST_F(RunFrom, RefusesWhatTheStateCannotHold) {
   EXPECT_THAT(refusal("old", {on_[0], "resolution.spacing=1e-3"}),
               HasSubstr("key 'resolution.spacing': value 0.001: the particles are those"));
