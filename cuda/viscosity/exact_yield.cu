@@ -329,15 +329,16 @@ void ExactYield::add_force(const PairContext& c, Real dt, Span<const Quad> base,
 }
 
 Span<const double> ExactYield::measure_work(const PairContext& c, Real dt, Span<const Quad> predicted,
-                                            Span<const Quad> solved) {
+                                            Span<const Quad> solved, const SolveState* solve) {
   gap_.resize(c.fluid.count);
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield work", c.fluid.count,
-           WorkOfYield<decltype(loop.box)>{{loop, own_.span(), other_.span(), wall_.span(), held_.span()},
-                                           dt,
-                                           predicted,
-                                           solved,
-                                           gap_.span()});
+           if_converged(solve, WorkOfYield<decltype(loop.box)>{
+                                   {loop, own_.span(), other_.span(), wall_.span(), held_.span()},
+                                   dt,
+                                   predicted,
+                                   solved,
+                                   gap_.span()}));
   });
   return gap_.span();
 }

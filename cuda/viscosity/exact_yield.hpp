@@ -16,6 +16,7 @@
 // stresses are equal; it is eliminated, so that their viscosities with a have the harmonic mean.
 #pragma once
 
+#include "fluid/solve_state.hpp"
 #include "neighbours/pairs.hpp"
 #include "viscosity/linear_system.hpp"
 
@@ -70,8 +71,9 @@ class ExactYield {
   Misfit update(const PairContext&, Span<const Quad> predicted, Span<const Quad> increment, const Chords&);
 
   // What the forces of add_force() take of the motion of each particle between u* and u [J]; until update().
+  // Idle unless the solve has converged.
   Span<const double> measure_work(const PairContext&, Real dt, Span<const Quad> predicted,
-                                  Span<const Quad> solved);
+                                  Span<const Quad> solved, const SolveState* solve);
 
   // |tau| [Pa] of each particle: f |p| and that of the viscous part at these shear rates.
   void measure_stress(const PairContext&, Span<const Real> shear_rate, Span<Real> result);

@@ -155,7 +155,8 @@ SolveResult ViscousStep::solve_exact(const LinearSystem& matrix, const PairConte
 
 Span<const double> ViscousStep::yield_work(const PairContext& c, const Step& step) {
   if (!exact_yield_stress()) return {};
-  return yield_.measure_work(c, static_cast<Real>(step.dt), predicted_.span(), velocity_.span());
+  return yield_.measure_work(c, static_cast<Real>(step.dt), predicted_.span(), velocity_.span(),
+                             &record()->solve);
 }
 
 }  // namespace slagflow

@@ -206,7 +206,7 @@ TEST(StepWaits, FlowThroughAChannelIsRecordedOnceInAHundredSteps) {
   Simulation graphs(setup);
   setup.time_parts = true;
   Simulation single(setup);
-  constexpr int filling = 250, steps = 200;
+  constexpr int filling = 60, steps = 100;
   for (int k = 0; k < filling; ++k) graphs.step(), single.step();
   const std::int64_t builds = graphs.list_builds(), removed = graphs.totals().removed[0];
   const DeviceCounts before = graphs.device_counts();
