@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <tuple>
 
 #include "backend/error.hpp"
+#include "host/geometry/sets.hpp"
 #include "host/geometry/stl_surface.hpp"
 
 namespace slagflow {
@@ -16,22 +16,6 @@ namespace {
 
 constexpr std::size_t most_samples = 100;  // triangles of a body that tell on which side of another it lies
 constexpr double on_surface = 1e-6;        // of a body's extent: as near as that a point tells nothing
-
-// Sets of triangles that grow together.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t of(std::size_t t) {
-    while (parent_[t] != t) t = parent_[t] = parent_[parent_[t]];
-    return t;
-  }
-  void join(std::size_t a, std::size_t b) { parent_[of(a)] = of(b); }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 // A triangle at one of its edges, from the corner of the lower number to the other, or backward.
 struct EdgeUse {
@@ -57,13 +41,13 @@ std::vector<EdgeUse> edges_of(const std::vector<Corners>& triangles) {
 
 // Where bodies touch along an edge: triangles of one body each way belong together; of what is left any two
 // that run opposite ways, which lie alike where two bodies share a face.
-void join_at_shared_edge(const EdgeUse* first, std::size_t pairs, Groups& groups) {
+void join_at_shared_edge(const EdgeUse* first, std::size_t pairs, Sets& groups) {
   std::vector<std::size_t> forward, backward;
   for (std::size_t k = 0; k < pairs; ++k) backward.push_back(first[pairs + k].triangle);
   for (std::size_t k = 0; k < pairs; ++k) {
     const std::size_t f = first[k].triangle;
     const auto same = std::find_if(backward.begin(), backward.end(),
-                                   [&](std::size_t b) { return groups.of(b) == groups.of(f); });
+                                   [&](std::size_t b) { return groups.root(b) == groups.root(f); });
     if (same == backward.end())
       forward.push_back(f);
     else
@@ -74,7 +58,7 @@ void join_at_shared_edge(const EdgeUse* first, std::size_t pairs, Groups& groups
 
 enum class Edges { of_two_triangles, of_more };
 
-void join_at_edges(const std::vector<EdgeUse>& uses, Edges which, Groups& groups) {
+void join_at_edges(const std::vector<EdgeUse>& uses, Edges which, Sets& groups) {
   for (std::size_t first = 0, last = 0; first < uses.size(); first = last) {
     while (last < uses.size() && uses[last].same_edge(uses[first])) ++last;
     const Edges kind = last - first > 2 ? Edges::of_more : Edges::of_two_triangles;
@@ -83,14 +67,14 @@ void join_at_edges(const std::vector<EdgeUse>& uses, Edges which, Groups& groups
 }
 
 std::vector<std::vector<std::size_t>> bodies_of(const std::vector<Corners>& corners) {
-  Groups groups(corners.size());
+  Sets groups(corners.size());
   const std::vector<EdgeUse> uses = edges_of(corners);
   join_at_edges(uses, Edges::of_two_triangles, groups);
   join_at_edges(uses, Edges::of_more, groups);
   std::vector<std::vector<std::size_t>> bodies;
   std::map<std::size_t, std::size_t> index;
   for (std::size_t t = 0; t < corners.size(); ++t) {
-    const auto [found, fresh] = index.emplace(groups.of(t), bodies.size());
+    const auto [found, fresh] = index.emplace(groups.root(t), bodies.size());
     if (fresh) bodies.emplace_back();
     bodies[found->second].push_back(t);
   }
