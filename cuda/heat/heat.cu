@@ -66,6 +66,12 @@ struct SetEntered {
   HOST_DEVICE void operator()(Index k) const { enthalpy[begin + k] = from[k], melt[begin + k] = {}; }
 };
 
+struct MeanWithBefore {
+  Span<const double> before;
+  Span<double> now;
+  HOST_DEVICE void operator()(Index k) const { now[k] = 0.5 * (before[k] + now[k]); }
+};
+
 // Evenly spread: on a circle in the x-z plane, or along a spiral over the sphere (Fibonacci's).
 std::vector<Quad> directions(int dimensions) {
   const int count = dimensions == 2 ? 132 : 128;  // of a line of particles just a sixth is open
@@ -152,6 +158,9 @@ Heat::Heat(Context& c)
       site_taken_(c, "heat of sites"),
       lost_(c, "heat of particles"),
       entered_(c, "heat that enters"),
+      enthalpy_before_(c, "enthalpies before"),
+      taken_before_(c, "heat of sites before"),
+      sums_before_(c, "heat sums before"),
       directions_(c, "directions of surfaces"),
       sums_(c, "heat sums") {}
 
@@ -281,6 +290,22 @@ void Heat::conduct(const PairContext& c, const ListView& wall_to_fluid, double s
                           AddHeat{sums_.span().data + heat_by_surface});
   update(fluid, 0);
   last_time_ = step_end;
+}
+
+void Heat::conduct_twice(const PairContext& c, const ListView& wall_to_fluid, double step_end,
+                         FluidArrays& fluid) {
+  const double begin = last_time_;
+  enthalpy_before_.copy_from(fluid.enthalpy), taken_before_.copy_from(site_taken_);
+  sums_before_.copy_from(sums_);
+  conduct(c, wall_to_fluid, step_end, fluid);
+  last_time_ = begin;
+  conduct(c, wall_to_fluid, step_end, fluid);
+  const auto halve = [&](Buffer<double>& now, const Buffer<double>& before) {
+    launch(context_, "mean of two steps", static_cast<Index>(now.size()),
+           MeanWithBefore{before.span(), now.span()});
+  };
+  halve(fluid.enthalpy, enthalpy_before_), halve(site_taken_, taken_before_), halve(sums_, sums_before_);
+  update(fluid, 0);
 }
 
 void Heat::enter(Index first, const std::vector<std::uint8_t>& kinds, const std::vector<double>& temperatures,

@@ -31,19 +31,18 @@ double Simulation::State::flow_end() const {
   return setup.thermal.on ? smaller(setup.end_time, setup.thermal.flow_until) : setup.end_time;
 }
 
-// In steps as long as conduction and max_time_step allow, the last two of which share what is left. The clock
-// of the flow stands, by which walls and inlets go.
+// The last two steps share what is left. The clock of the flow stands, by which walls and inlets go.
 void Simulation::State::cool() {
   if (heat_time < time) {
     heat_time = time;
     if (!lists_hold()) rebuild();
   }
   const double left = setup.end_time - heat_time;
-  heat_dt = heat.longest_step();
+  heat_dt = cooling_time_step(heat.longest_step(), heat_time - time);
   if (setup.numerics.max_time_step > 0) heat_dt = smaller(heat_dt, setup.numerics.max_time_step);
   if (left > 0 && left < 2 * heat_dt) heat_dt = left <= heat_dt ? left : 0.5 * left;
   heat_time = heat_dt == left ? setup.end_time : heat_time + heat_dt;
-  heat.conduct(pairs(), wall_to_fluid.view(), heat_time, fluid);
+  heat.conduct_twice(pairs(), wall_to_fluid.view(), heat_time, fluid);
   launch(context, "come to rest", fluid.count,
          ComeToRest{fluids.span(), fluid.fluid.span(), fluid.motion.span(), fluid.state.span(),
                     fluid.melt.span(), fluid.shear_rate.span()});

@@ -141,13 +141,21 @@ TimeStep time_step(const SimulationSetup& setup, double sound_speed) {
   return step;
 }
 
+// Of heat alone for so long [s].
+double cooling_steps(const SimulationSetup& setup, double duration) {
+  const double longest = conduction_time_step(setup), given = setup.numerics.max_time_step;
+  const double most = given > 0 ? std::min(given, longest) : longest;
+  double steps = 0, elapsed = 0, step = 0;
+  while (elapsed < duration && (step = std::min(most, cooling_time_step(longest, elapsed))) < most)
+    elapsed += step, ++steps;
+  return steps + std::ceil(std::max(0.0, duration - elapsed) / most);
+}
+
 void add_time_step(CaseCheck& check, const BuiltCase& built) {
   const TimeStep step = time_step(built.setup, built.setup.numerics.sound_speed);
   check.time_step = step.length, check.time_step_reason = step.reason;
   const double last = built.resolved.output.last_time(), flows = built.resolved.flow_end();
-  double cooling = conduction_time_step(built.setup);
-  if (built.setup.numerics.max_time_step > 0) cooling = std::min(cooling, built.setup.numerics.max_time_step);
-  check.steps = std::ceil(flows / check.time_step) + std::ceil((last - flows) / cooling);
+  check.steps = std::ceil(flows / check.time_step) + cooling_steps(built.setup, last - flows);
 }
 
 // What each speed asks for and costs.

@@ -5,6 +5,7 @@
 
 #include "core/simulation_setups.hpp"
 #include "fluid/constants.hpp"
+#include "heat/heat.hpp"
 
 namespace slagflow {
 namespace {
@@ -110,6 +111,30 @@ TEST(Heat, GoesOnAloneOnceTheFlowIsOver) {
   EXPECT_EQ(t.kinetic_energy, 0);
   EXPECT_LT(t.heat.hottest, 1500);
   EXPECT_NEAR(t.heat.error(), 0, 1e-6 * (t.heat.surface + t.heat.walls.at(0)));
+}
+
+// To second order: temperatures are those after steps of a hundredth of the longest.
+TEST(Heat, AloneIsAsRightInItsOwnStepsAsInShortOnes) {
+  const double length = conduction_time_step(dam_that_stops(1));
+  for (const double steps : {0.3, 1.5, 4.0}) {
+    const double end = steps * length;
+    SimulationSetup setup = dam_that_stops(end);
+    setup.thermal.flow_until = 0;
+    FluidSnapshot own, fine;
+    Simulation longest(setup);
+    while (longest.time() < end) longest.step();
+    longest.read(own);
+    setup.numerics.max_time_step = length / 100;
+    Simulation shorter(setup);
+    while (shorter.time() < end) shorter.step();
+    shorter.read(fine);
+    ASSERT_EQ(own.id, fine.id);
+    for (std::size_t i = 0; i < own.id.size(); ++i) {
+      EXPECT_NEAR(own.temperature[i], fine.temperature[i], 1) << end << " s, " << i;
+    }
+    EXPECT_NEAR(longest.totals().heat.surface, shorter.totals().heat.surface,
+                0.0005 * shorter.totals().heat.surface);
+  }
 }
 
 TEST(Heat, AloneOfARestoredStateGoesOnToTheBit) {
