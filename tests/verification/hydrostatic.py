@@ -1,9 +1,9 @@
 """Oil and Bingham slurry at rest in a tank: pressure, and no motion. The slurry and one tank of oil have the sound speed
-that is chosen by itself."""
+that is chosen by itself. And what the two faces of a valley bear, by the forces between particles and by areas."""
 
 import numpy as np
 
-from verification.suite import Row, Run, bound_row, limit, percent, verdict
+from verification.suite import Row, Run, bound_row, limit, percent, relative_row, verdict
 
 NAME = "hydrostatic"
 TITLE = "tank at rest, pressure"
@@ -15,7 +15,8 @@ def runs(quick):
     auto = {"numerics.sound_speed": "auto"}
     return [Run("hydrostatic", "/hydrostatic_tank", "16 deep", end),
             Run("hydrostatic_auto", "/hydrostatic_tank", "16 deep, sound speed auto", {**end, **auto}),
-            Run("hydrostatic_bingham", "/hydrostatic_bingham", "16 deep, Bingham", {**end, **auto})]
+            Run("hydrostatic_bingham", "/hydrostatic_bingham", "16 deep, Bingham", {**end, **auto}),
+            Run("valley", "valley", "valley, 25 deep", end)]
 
 
 def pressure(result, state):
@@ -24,9 +25,30 @@ def pressure(result, state):
     return state.pressure, result.fluid()["density"] * 9.81 * (depth - state.position[:, 2]), depth
 
 
+def valley(result):
+    """The reaction to the pair forces is the weight, exactly; along a face's normal it and area times mean pressure are
+    half rho g H^2 / sin(angle), with H of the volume."""
+    volume = len(result.state(0).position) * result.spacing**2
+    slopes = np.radians([20, 50])
+    depth = np.sqrt(2 * volume / np.sum(1 / np.tan(slopes)))
+    weight = result.fluid()["density"] * 9.81
+    history = {name: column[-1] for name, column in result.history.items()}
+    table = [relative_row(result.resolution, "weight on both faces [N/m]",
+                          -sum(history[f"force{angle}_pressure_z_N_m"] + history[f"force{angle}_viscous_z_N_m"]
+                               for angle in (20, 50)), weight * volume, 0.001)]
+    for angle, slope, side in zip((20, 50), slopes, (-1, 1)):
+        exact = 0.5 * weight * depth**2 / np.sin(slope)
+        pairs = (side * np.sin(slope) * history[f"force{angle}_pressure_x_N_m"]
+                 - np.cos(slope) * history[f"force{angle}_pressure_z_N_m"])
+        areas = history[f"contact{angle}_wetted_m"] * history[f"contact{angle}_mean_pressure_Pa"]
+        table += [relative_row(result.resolution, f"force on the face at {angle}° [N/m]", pairs, exact, 0.02),
+                  relative_row(result.resolution, f"force on the face at {angle}°, by its area [N/m]", areas, exact, 0.02)]
+    return table
+
+
 def rows(results):
-    table = []
-    for result in results:
+    table = valley(results[-1])
+    for result in results[:-1]:
         state = result.state()
         measured, exact, depth = pressure(result, state)
         error = np.sqrt(np.mean((measured - exact)**2)) / (result.fluid()["density"] * 9.81 * depth)
