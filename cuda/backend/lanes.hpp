@@ -36,10 +36,15 @@ HOST_DEVICE inline bool first_lanes(Index n) { return n > 0; }
 HOST_DEVICE inline void foresee(const void*) {}
 HOST_DEVICE inline Real load_lanes(const Real* from) { return *from; }
 HOST_DEVICE inline void store_lanes(Real* to, Real a) { *to = a; }
-HOST_DEVICE inline Real gather(const Real* from, const Index* at) { return from[*at]; }
+// Numbers of elements, one a lane.
+struct Entries {
+  Index number;
+  HOST_DEVICE Index operator[](int) const { return number; }
+};
+HOST_DEVICE inline Real gather(const Real* from, const Entries& at) { return from[at.number]; }
 template <class Block>
-HOST_DEVICE void gather(const Block* from, const Index* at, Real (&parts)[4]) {
-  const Block block = from[*at];
+HOST_DEVICE void gather(const Block* from, const Entries& at, Real (&parts)[4]) {
+  const Block block = from[at.number];
   parts[0] = block.x, parts[1] = block.y, parts[2] = block.z, parts[3] = block.w;
 }
 template <int stride>
@@ -169,7 +174,7 @@ inline LaneMask first_lanes(Index n) {
 
 // Fetches what lies a few rows of a list ahead in a stream that is read once: what the hardware foresees ends
 // with its pages. A kibibyte was best of half, one and two.
-inline void foresee(const void* at) { __builtin_prefetch(static_cast<const char*>(at) + 1024); }
+HOST_DEVICE_INLINED void foresee(const void* at) { __builtin_prefetch(static_cast<const char*>(at) + 1024); }
 
 inline Lanes load_lanes(const Real* from) {
   Lanes a;
@@ -178,8 +183,14 @@ inline Lanes load_lanes(const Real* from) {
 }
 inline void store_lanes(Real* to, Lanes a) { __builtin_memcpy(to, &a.v, sizeof a.v); }
 
+// Numbers of elements, one a lane.
+struct Entries {
+  const Index* number;
+  HOST_DEVICE_INLINED Index operator[](int k) const { return number[k]; }
+};
+
 // Element at[k] in lane k.
-inline Lanes gather(const Real* from, const Index* at) {
+inline Lanes gather(const Real* from, const Entries& at) {
   Lanes a;
   for (int k = 0; k < lane_count; ++k) a.v[k] = from[at[k]];
   return a;
@@ -187,7 +198,7 @@ inline Lanes gather(const Real* from, const Index* at) {
 
 // The numbers x, y, z, w of element at[k] in lane k of the four parts.
 template <class Block>
-inline void gather(const Block* from, const Index* at, Lanes (&parts)[4]) {
+HOST_DEVICE_INLINED void gather(const Block* from, const Entries& at, Lanes (&parts)[4]) {
 #if defined(__AVX__)
   if constexpr (sizeof(Real) == 4) {
     // 128 bits each, in pairs, then transposed: half the work of the gather instruction.

@@ -69,10 +69,10 @@ struct Stress {
 
   HOST_DEVICE Vec3 fluid_gradient(Index i, LaneVec3 x) const {
     LaneVec3 sum;
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const QuadLanes there = gather(c.fluid.place, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
@@ -84,10 +84,10 @@ struct Stress {
 
   HOST_DEVICE Vec3 wall_gradient(Index i, LaneVec3 x, Vec3& wetted) const {
     LaneVec3 sum, with_cosine;
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
@@ -127,10 +127,10 @@ struct Divergence {
     const Quad wetted = capillary.wall_normal[i];
     const Quad normal = capillary.normal_stress[i], shear = capillary.shear_stress[i];
     LaneVec3 sum;
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const QuadLanes there = gather(c.fluid.place, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
@@ -152,10 +152,10 @@ struct Divergence {
   HOST_DEVICE Vec3 from_walls(Index i) const {
     const Vec3 x = xyz(c.fluid.place[i]);
     Vec3 sum;
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; ++k) {
-      const Vec3 d = box.separation(x, xyz(c.wall.place[c.wall_list.entry[first + k * ListView::stride()]]));
+      const Vec3 d = box.separation(x, xyz(c.wall.place[row.one(k)]));
       const Real r2 = dot(d, d);
       if (r2 < square(c.flow.support))
         sum += capillary_pull(capillary, weight, i, d, std::sqrt(r2), c.flow.wall_volume);

@@ -25,24 +25,28 @@ struct QuadLanes {
 HOST_DEVICE inline LaneVec3 xyz(const QuadLanes& q) { return {q.x, q.y, q.z}; }
 
 // Elements at[0], at[1], ... of `from`, one a lane.
-HOST_DEVICE inline QuadLanes gather(Span<const Quad> from, const Index* at) {
+HOST_DEVICE_INLINED QuadLanes gather(Span<const Quad> from, const Entries& at) {
   Lanes parts[4];
   gather(from.data, at, parts);
   return {parts[0], parts[1], parts[2], parts[3]};
 }
 // Where from[at[lane]] is `wanted`.
-HOST_DEVICE inline LaneMask same(Span<const std::uint8_t> from, const Index* at, std::uint8_t wanted) {
+HOST_DEVICE inline LaneMask same(Span<const std::uint8_t> from, const Entries& at, std::uint8_t wanted) {
   Real found[lane_count];
   for (int lane = 0; lane < lane_count; ++lane) found[lane] = from[at[lane]] == wanted ? Real(1) : Real(0);
   return Lanes(0) < load_lanes(found);
 }
-HOST_DEVICE inline Lanes gather(Span<const Real> from, const Index* at) { return gather(from.data, at); }
+HOST_DEVICE inline Lanes gather(Span<const Real> from, const Entries& at) { return gather(from.data, at); }
 
 // Elements first, first + 1, ...
 HOST_DEVICE inline QuadLanes load_lanes(Span<const Quad> from, Index first) {
+#if defined(SLAGFLOW_CUDA)
+  return gather(from, {first});
+#else
   Index at[lane_count];
   for (int k = 0; k < lane_count; ++k) at[k] = first + k;
-  return gather(from, at);
+  return gather(from, {at});
+#endif
 }
 
 }  // namespace slagflow

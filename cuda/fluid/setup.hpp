@@ -109,6 +109,9 @@ enum class ViscousSolver { multigrid, conjugate_gradient, sor, jacobi };
 // looks after each batch, or the device.
 enum class SolverLoop { batch, conditional };
 
+// How the weights of viscous pairs are stored (pair_weights.hpp).
+enum class StoredWeights { brief, full };
+
 // What fluid bears below zero pressure. viscous: what its own viscous stress can ask for; what expands beyond
 // that is void. limit: the same everywhere, walls too, and the density goes on falling: for fluid without a
 // free surface, where no void can be.
@@ -138,6 +141,7 @@ struct NumericsSetup {
   double skin = 0.06;  // of the neighbour list, in support radii
   ViscousSolver solver = ViscousSolver::multigrid;
   SolverLoop solver_loop = SolverLoop::batch;
+  StoredWeights weights = StoredWeights::brief;
   double tolerance = 1e-2;  // rms velocity error of the solve, in gravity kicks g dt
   int max_iterations = 200;
   double relaxation = 1.2;  // omega of SOR

@@ -29,9 +29,9 @@ struct AtSite {
     for (Index m = step.sites.first[s]; m < step.sites.first[s + 1]; ++m) {
       const Index w = wall_at[step.sites.member[m]];
       if (w < 0) continue;
-      const Offset first = list.row(w);
+      const ListRow row = list.entries(w);
       for (Index k = 0; k < list.length[w]; ++k) {
-        const Index i = list.entry[first + k * ListView::stride()];
+        const Index i = row.one(k);
         const WallPair pair = wall_pair(c, step.constants, box, i, w);
         if (pair.area > 0) visit(pair, i);
       }
@@ -115,10 +115,10 @@ struct InFluid {
   HOST_DEVICE void add_fluid(Index i, Sums& sums) const {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
     const Quad own = step.heat[i];
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const QuadLanes there = gather(c.fluid.place, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
@@ -137,11 +137,11 @@ struct InFluid {
   }
 
   HOST_DEVICE void add_walls(Index i, Sums& sums) const {
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index pairs = c.wall_list.length[i];
     const Vec3 x = xyz(c.fluid.place[i]);
     for (Index k = 0; k < pairs; ++k) {
-      const Index w = c.wall_list.entry[first + k * ListView::stride()];
+      const Index w = row.one(k);
       const Vec3 d = box.separation(x, xyz(c.wall.place[w]));
       const Real r2 = dot(d, d);
       if (!(r2 < square(c.flow.support))) continue;
@@ -165,9 +165,9 @@ struct InFluid {
   // Whether a place at `from` from the particle is within a spacing of another particle of the list.
   HOST_DEVICE bool covered(const ListView& list, Index i, Span<const Quad> places, Vec3 from) const {
     const Vec3 x = xyz(c.fluid.place[i]);
-    const Offset first = list.row(i);
+    const ListRow row = list.entries(i);
     for (Index k = 0; k < list.length[i]; ++k) {
-      const Vec3 d = box.separation(xyz(places[list.entry[first + k * ListView::stride()]]), x);
+      const Vec3 d = box.separation(xyz(places[row.one(k)]), x);
       if (Real(2) * dot(from, d) > dot(d, d)) return true;
     }
     return false;

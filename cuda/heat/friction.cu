@@ -32,14 +32,14 @@ struct FrictionOfStep {
   }
 
   HOST_DEVICE Lanes of_fluid(Index i, LaneVec3 x, LaneVec3 u, LaneVec3 predicted) const {
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     Lanes sum = 0;
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Offset at = first + k * ListView::stride();
-      const Index* j = &c.fluid_list.entry[at];
+      const Offset at = row.at(k);
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, j)));
-      sum += Real(0.5) * lost(load_lanes(&step.weight[at]), d, u - xyz(gather(step.solved, j)),
+      sum += Real(0.5) * lost(step.weight.load(at), d, u - xyz(gather(step.solved, j)),
                               predicted - xyz(gather(step.predicted, j)), c.flow.coupling);
     }
     return sum;
@@ -48,11 +48,11 @@ struct FrictionOfStep {
   HOST_DEVICE Lanes of_walls(Index i, LaneVec3 x, LaneVec3 u, LaneVec3 predicted) const {
     const Quad own = c.fluid.state[i];
     const Real factor = step.implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index pairs = c.wall_list.length[i];
     Lanes sum = 0;
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);

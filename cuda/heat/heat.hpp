@@ -7,6 +7,7 @@
 #include "fluid/setup.hpp"
 #include "fluid/solve_state.hpp"
 #include "heat/heat_params.hpp"
+#include "viscosity/pair_weights.hpp"
 
 namespace slagflow {
 
@@ -50,7 +51,7 @@ class Heat {
 
   // (H8) of an accepted step. `weight`: w_ij of each entry of the fluid list, times the step.
   struct Friction {
-    Span<const Real> weight;
+    PairWeights weight;
     Span<const Quad> predicted, solved;
     const SolveState* solve;
     Real implicit_dt;             // [s]

@@ -3,6 +3,9 @@
 // thread searches for one particle: search.hpp.)
 #pragma once
 
+#include <vector>
+
+#include "backend/reduce.hpp"
 #include "backend/reserve.hpp"
 #include "neighbours/neighbours.hpp"
 #include "neighbours/search.hpp"
@@ -81,33 +84,28 @@ struct GroupSearch {
       if (search.self && own >= k && own < k + lane_count) lanes &= ~(1u << (own - k));
       at = append(at, near.number + k, lanes);
     }
-    return fill_up(i, to, at);
+    return fill_up(to, at);
   }
 
-  // The same of all sources around the cell, not gathered; nothing is written from `end` on.
-  Index find_alone(Index i, Index cell, Index* to, const Index* end) const {
-    Index* at = to;
-    look_alone(i, cell, [&](Index j, unsigned lanes) { at = append<1>(at, end, j, lanes); });
-    return fill_up(i, to, at);
-  }
-  Index count_alone(Index i, Index cell) const {
-    Index n = 0;
-    look_alone(i, cell, [&](Index, unsigned lanes) { n += number_of(lanes); });
-    return n;
+  // The same of all sources around the cell, not gathered, with what fills up the last lanes.
+  std::vector<Index> find_alone(Index i, Index cell, Index& n) const {
+    std::vector<Index> found;
+    const LaneVec3 centre = in_lanes(xyz(search.targets[i]));
+    search.sources.grid.for_runs_around(cell, range, [&](Index first, Index last) {
+      search.find_in(first, last, i, centre, [&](Index j, unsigned lanes) {
+        for (; lanes; lanes &= lanes - 1) found.push_back(j + __builtin_ctz(lanes));
+      });
+    });
+    n = static_cast<Index>(found.size());
+    if (n > 0) found.resize(static_cast<std::size_t>(whole_lanes(n)), found.back());
+    return found;
   }
 
  private:
-  template <class Found>
-  void look_alone(Index i, Index cell, Found found) const {
-    const LaneVec3 centre = in_lanes(xyz(search.targets[i]));
-    search.sources.grid.for_runs_around(
-        cell, range, [&](Index first, Index last) { search.find_in(first, last, i, centre, found); });
-  }
-
   // What fills up the last lanes may be read, but counts for nothing.
-  Index fill_up(Index i, Index* to, const Index* at) const {
+  static Index fill_up(Index* to, const Index* at) {
     const auto n = static_cast<Index>(at - to);
-    for (Index k = n; k < whole_lanes(n); ++k) to[k] = search.self ? i : 0;
+    for (Index k = n; k < whole_lanes(n); ++k) to[k] = to[n - 1];
     return n;
   }
 };
@@ -117,17 +115,26 @@ struct RowStore {
   Span<Offset> row;
   Span<Index> length;
   Span<std::uint8_t> room;  // in registers()
-  Span<Index> entry;  // too short: nothing is written beyond its end, and `used` tells how long it must be
+  Span<Code> code;  // too short: nothing is written beyond its end, and used[0] tells how long it must be
   Span<Offset> used;
 
   // Takes new room for row i, for n entries and `spare` registers.
-  Offset take(Index i, Index n, Index spare) const {
+  void take(Index i, Index n, Index spare) const {
     const Offset wanted = whole_lanes(n) + static_cast<Offset>(spare) * lane_count;
     row[i] = reserve(used, wanted);
     room[i] = registers(static_cast<Index>(wanted));
-    return row[i];
   }
-  bool holds(Offset begin, Index n) const { return begin + whole_lanes(n) <= entry.size; }
+  // n entries of row i and what fills up their last lanes, where it has its room.
+  void put(Index i, const Index* entries, Index n) const {
+    const Offset begin = row[i], end = begin + whole_lanes(n);
+    if (end > code.size) return;
+    for (Offset k = begin; k < end; ++k) code[k] = static_cast<Code>(entries[k - begin]);
+  }
+};
+
+struct KeepMisfits {
+  Offset* misfits;
+  HOST_DEVICE void operator()(const Terms<1>& all) const { *misfits = static_cast<Offset>(all.value[0]); }
 };
 
 // Fills the rows of `targets_per_piece` targets. Rows are collected first; where they go in the list is
@@ -184,19 +191,21 @@ struct FillPiece {
   // A row among so many sources that they were not gathered.
   void search_alone(Index i, Index cell, Collected& rows) const {
     flush(rows);
-    const Index n = group.count_alone(i, cell);
-    const Offset begin = store.take(i, n, 0);
+    Index n = 0;
+    const std::vector<Index> found = group.find_alone(i, cell, n);
+    store.take(i, n, 0);
     store.length[i] = n;
     rows.first = i + 1;
-    if (n > 0 && store.holds(begin, n))
-      group.find_alone(i, cell, &store.entry[begin], &store.entry[begin] + whole_lanes(n));
+    store.put(i, found.data(), n);
   }
 
   void flush(Collected& rows) const {
     const Offset begin = reserve(store.used, rows.size);
-    for (Index k = 0; k < rows.count; ++k) store.row[rows.first + k] += begin;
-    if (begin + rows.size <= store.entry.size)
-      for (Index k = 0; k < rows.size; ++k) store.entry[begin + k] = rows.entries[k];
+    for (Index i = rows.first; i < rows.first + rows.count; ++i) {
+      const Index* entries = rows.entries + store.row[i];
+      store.row[i] += begin;
+      store.put(i, entries, store.length[i]);
+    }
     rows.first += rows.count;
     rows.count = rows.size = 0;
   }
@@ -218,26 +227,22 @@ struct RefillCell {
     Candidates near;
     if (group.gather_candidates(cell, first, last, near)) {
       Index entries[Candidates::most + lane_count];
-      for (Index i = first; i < last; ++i) {
-        const Index n = group.find(i, near, entries);
-        if (Index* to = place(i, n))
-          for (Offset k = 0; k < whole_lanes(n); ++k) to[k] = entries[k];
-      }
+      for (Index i = first; i < last; ++i) keep(i, entries, group.find(i, near, entries));
     } else {
       for (Index i = first; i < last; ++i) {
-        const Index n = group.count_alone(i, cell);
-        if (Index* to = place(i, n)) group.find_alone(i, cell, to, to + whole_lanes(n));
+        Index n = 0;
+        const std::vector<Index> found = group.find_alone(i, cell, n);
+        keep(i, found.data(), n);
       }
     }
   }
 
  private:
-  // Null where there is nothing to store, or no room yet.
-  Index* place(Index i, Index n) const {
+  void keep(Index i, const Index* entries, Index n) const {
     constexpr Index spare = 1;
     store.length[i] = n;
     if (whole_lanes(n) > static_cast<Offset>(store.room[i]) * lane_count) store.take(i, n, spare);
-    return n > 0 && store.holds(store.row[i], n) ? &store.entry[store.row[i]] : nullptr;
+    store.put(i, entries, n);
   }
 };
 

@@ -53,19 +53,20 @@ struct MeasureSlice {
   }
 };
 
+// How many entries the codes do not do for.
 template <class Box>
 struct FillRow {
+  static constexpr int terms = 1;
   Search<Box> search;
   Span<const Offset> slice;
-  Span<const Index> length;
-  Span<Index> entry;
-  HOST_DEVICE void operator()(Index i) const {
-    const Offset row = slice[i / slice_width] + i % slice_width;
-    Index* at = &entry[row];
-    const Index* end = at + whole_lanes(length[i]) * slice_width;
-    search(i, [&](Index j, unsigned lanes) { at = append<slice_width>(at, end, j, lanes); });
-    // What fills up the last lanes may be read, but counts for nothing.
-    for (Offset k = length[i]; k < whole_lanes(length[i]); ++k) entry[row + k] = search.self ? i : 0;
+  CodeStore store;
+  HOST_DEVICE Terms<1> operator()(Index i) const {
+    RowFiller row(store, slice[i / slice_width] + i % slice_width, i);
+    Index misfits = 0;
+    search(i, [&](Index j, unsigned lanes) {
+      if (lanes) misfits += row.put(j) ? 0 : 1;
+    });
+    return {{static_cast<double>(misfits)}};
   }
 };
 
@@ -76,26 +77,27 @@ struct CellOfTarget {
   HOST_DEVICE void operator()(Index i) const { cell[i] = grid.cell_of(xyz(targets[i])); }
 };
 
-// Fills rows of worn cells anew; by how many entries one is too long for its slice.
+// Fills rows of worn cells anew; by how many entries one is too long for its slice, or the codes do not do.
 template <class Box>
 struct RenewRow {
   static constexpr int terms = 1;
   Search<Box> search;
   Span<const std::uint8_t> worn;  // of each cell
   Span<const Offset> slice;
-  Span<Index> length, entry;
+  Span<Index> length;
+  CodeStore store;
   HOST_DEVICE Terms<1> operator()(Index i) const {
     if (!worn[search.cell[i]]) return {{0}};
     const Index s = i / slice_width;
     const auto room = static_cast<Index>((slice[s + 1] - slice[s]) / slice_width);
-    Index* const row = &entry[slice[s] + i % slice_width];
-    Index n = 0;
+    RowFiller row(store, slice[s] + i % slice_width, i);
+    Index n = 0, misfits = 0;
     search(i, [&](Index j, unsigned lanes) {
-      if (lanes && n < room) row[static_cast<Offset>(n) * slice_width] = j;
+      if (lanes && n < room && !row.put(j)) ++misfits;
       n += number_of(lanes);
     });
     length[i] = smaller(n, room);
-    return {{static_cast<double>(n - length[i])}};
+    return {{static_cast<double>(n - length[i] + misfits)}};
   }
 };
 
@@ -114,8 +116,10 @@ NeighbourList::NeighbourList(Context& context, const char* name)
       target_cell_(context, name),
       slice_length_(context, name),
       slice_(context, name),
-      used_(context, name, 1),
-      entry_(context, name),
+      used_(context, name, 2),
+      code_(context, name),
+      base_(context, name),
+      plain_(context, name),
       room_(context, name),
       occupied_(context, name),
       spare_(context, name) {}
@@ -152,14 +156,38 @@ void NeighbourList::search_and_store(const Search<Box>& search) {
     store_slices(search);
 }
 
-// On a CPU: room for rows that outgrow theirs, a sixteenth or some.
-void NeighbourList::make_room() {
+void NeighbourList::keep_plain() {
+  all_plain_ = true;
+  Buffer<Code> none(context_, "codes of lists");
+  code_.swap(none);  // and what was recorded is recorded anew
+}
+
+void NeighbourList::resize_entries(Offset entries, Offset margin_percent) {
+  all_plain_ ? plain_.resize(entries, margin_percent) : code_.resize(entries, margin_percent);
+}
+
+// A sixteenth or some more.
+bool NeighbourList::make_room() {
+  if constexpr (slice_width > 1) return false;
   const Offset used = used_.span()[0];
-  if (used <= entry_.size()) return;
+  if (used <= code_.size()) return false;
   constexpr Offset least = 1 << 16;
   const Offset wanted = used + larger(used / 16, least);
-  entry_.reserve(wanted);
-  entry_.resize(wanted);
+  code_.reserve(wanted);
+  code_.resize(wanted);
+  return true;
+}
+
+CodeStore NeighbourList::code_store() {
+#if defined(SLAGFLOW_CUDA)
+  return {all_plain_ ? Span<Code>() : code_.span(), base_.span(), plain_.span()};
+#else
+  return {code_.span()};
+#endif
+}
+
+RowStore NeighbourList::row_store() {
+  return {slice_.span(), length_.span(), room_.span(), code_.span(), used_.span()};
 }
 
 template <class Box>
@@ -170,14 +198,10 @@ void NeighbourList::store_rows(const Search<Box>& search) {
   const int range =
       static_cast<int>(std::ceil(static_cast<double>(search.reach) / search.sources.grid.narrowest));
   slice_.resize(n), room_.resize(n);
-  for (;;) {
-    used_.upload({0});
-    launch(context_, "fill neighbours", pieces,
-           Fill{{search, range}, {slice_.span(), length_.span(), room_.span(), entry_.span(), used_.span()}});
-    const Offset before = entry_.size();
-    make_room();
-    if (entry_.size() == before) break;
-  }
+  do {
+    used_.upload({0, 0});
+    launch(context_, "fill neighbours", pieces, Fill{{search, range}, row_store()});
+  } while (make_room());
   filled_ = used_.span()[0];
 }
 
@@ -188,6 +212,9 @@ void NeighbourList::store_slices(const Search<Box>& search) {
   target_cell_.resize(n);
   slice_length_.resize(slices);
   slice_.resize(slices + 1);
+#if defined(SLAGFLOW_CUDA)
+  base_.resize(bases_for(n));
+#endif
   launch(context_, "cells of targets", n,
          CellOfTarget{search.sources.grid, search.targets, target_cell_.span()});
   launch(context_, "count neighbours", n, CountRow<Box>{search, length_.span()});
@@ -195,8 +222,13 @@ void NeighbourList::store_slices(const Search<Box>& search) {
   exclusive_scan(context_, slice_length_.span(), slice_.span());
   context_.copy_to_host(&filled_, slice_.span().data + slices, sizeof filled_);
   constexpr Offset margin_percent = 1;
-  entry_.resize(filled_, margin_percent);
-  launch(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), length_.span(), entry_.span()});
+  for (Offset misfits = 1; misfits > 0;) {
+    resize_entries(filled_, margin_percent);
+    launch_reduction<AddUp>(context_, "fill neighbours", n, FillRow<Box>{search, slice_.span(), code_store()},
+                            KeepMisfits{used_.span().data + 1});
+    context_.copy_to_host(&misfits, used_.span().data + 1, sizeof misfits);
+    if (misfits > 0) keep_plain();
+  }
 }
 
 void NeighbourList::renew(const ListedParticles& particles, const Worn& worn) {
@@ -207,20 +239,14 @@ template <class Box>
 void NeighbourList::renew_in(const Box& box, const ListedParticles& particles, const Worn& worn) {
   if constexpr (slice_width == 1) {
     const IfOpen<RefillCell<Box>> body{
-        {{search(box, particles), cells_moved},  // group
-         {slice_.span(), length_.span(), room_.span(), entry_.span(), used_.span()},
-         particles.target_start,
-         worn.cells},
-        worn.gate};
-    for (Offset before = -1; before != entry_.size(); make_room()) {
-      before = entry_.size();
-      auto again = body;
-      again.store.entry = entry_.span();
+        {{search(box, particles), cells_moved}, row_store(), particles.target_start, worn.cells}, worn.gate};
+    auto again = body;
+    do {
+      again.store = row_store();
       launch(context_, "renew neighbours", static_cast<Index>(worn.cells.size), again);
-    }
+    } while (make_room());
   } else {
-    const RenewRow<Box> body{search(box, particles), worn.cells, slice_.span(), length_.span(),
-                             entry_.span()};
+    const RenewRow<Box> body{search(box, particles), worn.cells, slice_.span(), length_.span(), code_store()};
     launch_reduction<TakeLargest>(context_, "renew neighbours", particles.count,
                                   IfOpen<RenewRow<Box>>{body, worn.gate}, KeepOverflow{worn.record});
   }

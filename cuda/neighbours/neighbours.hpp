@@ -2,44 +2,45 @@
 #pragma once
 
 #include "backend/buffer.hpp"
-#include "backend/lanes.hpp"
 #include "backend/rows.hpp"
 #include "fluid/math.hpp"
 #include "fluid/params.hpp"
 #include "neighbours/cells.hpp"
 #include "neighbours/list_gate.hpp"
+#include "neighbours/row_codes.hpp"
 
 namespace slagflow {
-
-// Rows of a list are stored in slices of `slice_width` targets whose k-th entries stand side by side, so that
-// the threads of a warp load neighbouring words; a width of one keeps each row in one piece, as a CPU wants
-// it. A row takes room for whole lanes; the entries beyond its length are valid particle numbers.
-#if defined(SLAGFLOW_CUDA)
-inline constexpr int slice_width = 32;
-#else
-inline constexpr int slice_width = 1;
-#endif
-
-HOST_DEVICE inline Offset whole_lanes(Index entries) {
-  return (static_cast<Offset>(entries) + lane_count - 1) / lane_count * lane_count;
-}
 
 // Of so many entries, in a byte: 255 stands for as many or more.
 HOST_DEVICE inline std::uint8_t registers(Index entries) {
   return static_cast<std::uint8_t>(smaller(whole_lanes(entries) / lane_count, Offset(255)));
 }
 
-struct ListView {
+// Where the rows of a list are.
+struct RowLayout {
   Span<const Offset> slice;  // where each slice begins
   Span<const Index> length;  // entries of each row
-  Span<const Index> entry;
 
   HOST_DEVICE static Offset stride() { return slice_width; }
   HOST_DEVICE Offset row(Index i) const { return slice[i / slice_width] + i % slice_width; }
 };
 
+struct ListView : RowLayout {
+  Span<const Code> code;
+  Span<const Index> base, plain;  // on a GPU: see row_codes.hpp
+
+  HOST_DEVICE ListRow entries(Index i) const {
+#if defined(SLAGFLOW_CUDA)
+    return {row(i), code.data, base.data + bases_of(i), plain.data};
+#else
+    return {row(i), code.data};
+#endif
+  }
+};
+
 template <class Box>
 struct Search;
+struct RowStore;
 
 // What a list is made of: for each target the sources closer than `reach` [m]. With `self` targets and
 // sources are the same particles, and a particle is not its own neighbour.
@@ -82,9 +83,9 @@ class NeighbourList {
   // After build(), and with the places of then. False where the bits are not those of these particles.
   bool recall(const ListedParticles&, const Doubtful&, const std::vector<std::uint8_t>&);
 
-  ListView view() const { return {slice_.span(), length_.span(), entry_.span()}; }
+  ListView view() const { return {{slice_.span(), length_.span()}, codes(), base_.span(), plain_.span()}; }
   // Entries, padding included: for how many there is room, and how many build() filled.
-  Offset capacity() const { return entry_.size(); }
+  Offset capacity() const { return all_plain_ ? plain_.size() : code_.size(); }
   Offset filled() const { return filled_; }
   // Of lists of others: cells of targets that may have a source near until the next build.
   Span<const std::uint8_t> near_sources() const { return occupied_.span(); }
@@ -110,13 +111,23 @@ class NeighbourList {
   bool recall_in(const Box&, const ListedParticles&, const Doubtful&, const std::vector<std::uint8_t>&);
   template <class Box>
   Offset measure_bits(const Search<Box>&, Real from, Buffer<Offset>& start);
-  void make_room();
+  // On a CPU: for all that has been used; false when there was.
+  bool make_room();
+  void resize_entries(Offset entries, Offset margin_percent);
+  // On a GPU: entries of 32 bits from now on.
+  void keep_plain();
+  Span<const Code> codes() const { return all_plain_ ? Span<const Code>() : code_.span(); }
+  CodeStore code_store();
+  RowStore row_store();
   void mark_occupied(const CellGrid&, Span<const Index> cell_start);
 
   Context& context_;
   Buffer<Index> length_, target_cell_;
-  Buffer<Offset> slice_length_, slice_, used_;
-  Buffer<Index> entry_;
+  Buffer<Offset> slice_length_, slice_;
+  Buffer<Offset> used_;  // entries, and for how many the codes did not do
+  Buffer<Code> code_;
+  Buffer<Index> base_, plain_;
+  bool all_plain_ = false;
   Buffer<std::uint8_t> room_;              // of each row in one piece
   Buffer<std::uint8_t> occupied_, spare_;  // of each cell
   Offset filled_ = 0;

@@ -1,6 +1,7 @@
 // The rows of a list as they are, without the list: some bits, and the places of its particles.
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 #include "neighbours/group_search.hpp"
 
 namespace slagflow {
@@ -45,8 +46,9 @@ struct WriteBits {
     for (Offset at = start[i]; at < start[i + 1]; ++at) bits[at] = 0;
     Offset bit = 0;
     Index entry = 0;
+    const ListRow row = list.entries(i);
     for_candidates(search, i, from, [&](Index j, bool near) {
-      const bool listed = entry < list.length[i] && list.entry[list.row(i) + entry * ListView::stride()] == j;
+      const bool listed = entry < list.length[i] && row.one(entry) == j;
       if (listed) ++entry;
       if (near) return;
       if (listed) bits[start[i] + bit / 8] |= static_cast<std::uint8_t>(1 << bit % 8);
@@ -85,27 +87,29 @@ struct RecallLength {
   }
 };
 
-// What does not fit into the room of a slice is left out.
+// What does not fit into the room of a slice is left out. How many entries the codes do not do for.
 template <class Box>
 struct RecallRow {
+  static constexpr int terms = 1;
   Search<Box> search;
   Real from;
   Span<const Offset> start;
   Span<const std::uint8_t> bits;
   Span<const Offset> slice;
-  Span<Index> length, entry;
-  HOST_DEVICE void operator()(Index i) const {
+  Span<Index> length;
+  CodeStore store;
+  HOST_DEVICE Terms<1> operator()(Index i) const {
     const Index s = i / slice_width;
-    const Offset first = slice[s] + i % slice_width;
     const auto room = static_cast<Index>((slice[s + 1] - slice[s]) / slice_width);
-    Index k = 0;
+    RowFiller row(store, slice[s] + i % slice_width, i);
+    Index k = 0, misfits = 0;
     for_remembered(search, i, from, bits.data + start[i], [&](Index j) {
-      if (k < room) entry[first + static_cast<Offset>(k) * slice_width] = j;
+      if (k < room && !row.put(j)) ++misfits;
       ++k;
     });
+    row.finish();
     length[i] = smaller(k, room);
-    for (; k < smaller(static_cast<Index>(whole_lanes(length[i])), room); ++k)
-      entry[first + static_cast<Offset>(k) * slice_width] = search.self ? i : 0;
+    return {{static_cast<double>(misfits)}};
   }
 };
 
@@ -174,13 +178,16 @@ bool NeighbourList::recall_in(const Box& box, const ListedParticles& p, const Do
                              room_.span()});
     slice_.resize(n + 1);
     exclusive_scan(context_, entries.span(), slice_.span());
-    context_.copy_on_device(used_.span().data, slice_.span().data + n, sizeof(Offset));
+    used_.upload({slice_.span()[n], 0});
     make_room();
   }
-  launch(context_, "rows as they were", n,
-         RecallRow<Box>{near, doubtful.from, start.span(), bits.span(), slice_.span(), length_.span(),
-                        entry_.span()});
-  return true;
+  launch_reduction<AddUp>(context_, "rows as they were", n,
+                          RecallRow<Box>{near, doubtful.from, start.span(), bits.span(), slice_.span(),
+                                         length_.span(), code_store()},
+                          KeepMisfits{used_.span().data + 1});
+  Offset misfits = 0;
+  context_.copy_to_host(&misfits, used_.span().data + 1, sizeof misfits);
+  return misfits == 0;
 }
 
 bool NeighbourList::recall(const ListedParticles& p, const Doubtful& doubtful,

@@ -20,7 +20,7 @@ struct MeltPair {
   Lanes own_viscous, other_viscous;
   Lanes series;  // own_side() of i in v
 
-  HOST_DEVICE MeltPair(const PairContext& c, Index i, const Index* j) {
+  HOST_DEVICE MeltPair(const PairContext& c, Index i, const Entries& j) {
     const Melt own(c.fluid.melt[i]);
     const QuadLanes other = gather(c.fluid.melt, j);
     own_viscous = own.viscous, other_viscous = other.w;
@@ -41,7 +41,7 @@ struct MeltPair {
 };
 
 // Share of i of the square of the strain rate of a pair of one fluid with heat. `own` [Pa s].
-HOST_DEVICE inline Lanes share_of_strain(const PairContext& c, Index i, Lanes own, const Index* j) {
+HOST_DEVICE inline Lanes share_of_strain(const PairContext& c, Index i, Lanes own, const Entries& j) {
   const MeltPair pair(c, i, j);
   return (pair.own_viscous * pair.series + (own - pair.own_viscous)) / own;
 }

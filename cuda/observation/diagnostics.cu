@@ -121,10 +121,9 @@ struct CountWithinSupport {
   PairContext c;
   HOST_DEVICE double count(Index i, const ListView& list, Span<const Quad> place) const {
     int n = 0;
-    const Offset first = list.row(i);
+    const ListRow row = list.entries(i);
     for (Index k = 0; k < list.length[i]; ++k) {
-      const Vec3 d =
-          c.box.separation(xyz(c.fluid.place[i]), xyz(place[list.entry[first + k * ListView::stride()]]));
+      const Vec3 d = c.box.separation(xyz(c.fluid.place[i]), xyz(place[row.one(k)]));
       if (dot(d, d) < square(c.flow.support)) ++n;
     }
     return n;

@@ -22,11 +22,11 @@ struct FlagBelowFaces {
   }
 
   HOST_DEVICE void operator()(Index i) const {
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     Real nearest = square(c.flow.support);
     bool below_any = false, below_nearest = false;
     for (Index k = 0; k < c.wall_list.length[i]; ++k) {
-      const Index w = c.wall_list.entry[first + k * ListView::stride()];
+      const Index w = row.one(k);
       const Vec3 d = c.box.separation(xyz(c.fluid.place[i]), xyz(c.wall.place[w]));
       const Real r2 = dot(d, d);
       if (c.wall.place[w].w > 0 || (r2 >= square(near) && r2 >= nearest)) continue;

@@ -33,10 +33,10 @@ struct Pairs {
   template <class Visit>
   HOST_DEVICE void each(Index i, Visit visit) const {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, j)));
       visit(d, (dot(d, d) < Lanes(square(c.flow.support))) & first_lanes(pairs - k), j);
     }
@@ -59,7 +59,7 @@ struct SeenThickness {
     LaneVec3 sum;
     SymmetricMatrix3<Lanes> squares;
     Lanes count = 1;
-    pairs.each(i, [&](LaneVec3 d, LaneMask near, const Index*) {
+    pairs.each(i, [&](LaneVec3 d, LaneMask near, const Entries&) {
       const Lanes one = select(near, Lanes(1), Lanes(0));
       sum += one * d, count += one;
       squares.add_outer(one, d);
@@ -79,7 +79,7 @@ struct SeenThickness {
     }
     const LaneVec3 axis = in_lanes(least_axis(all.about_mean));
     Lanes low = 0, high = 0;
-    pairs.each(i, [&](LaneVec3 d, LaneMask near, const Index*) {
+    pairs.each(i, [&](LaneVec3 d, LaneMask near, const Entries&) {
       const Lanes along = select(near, dot(d, axis), Lanes(0));
       low = smaller(low, along), high = smaller(high, Lanes(0) - along);
     });
@@ -99,7 +99,7 @@ struct LargestSeen {
       return;
     }
     Lanes most = -seen[i];
-    pairs.each(i, [&](LaneVec3, LaneMask near, const Index* j) {
+    pairs.each(i, [&](LaneVec3, LaneMask near, const Entries& j) {
       most = smaller(most, select(near, Lanes(0) - gather(seen, j), most));
     });
     thickness[i] = -least(most);

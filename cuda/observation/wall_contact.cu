@@ -24,10 +24,10 @@ struct LookAtSite {
     constexpr double touching = 0.25;
     const Quad n = c.wall.normal[w];
     const Vec3 at = xyz(c.wall.place[w]) + n.w * xyz(n), gravity = felt_gravity(w);
-    const Offset first = list.row(w);
+    const ListRow row = list.entries(w);
     double fill = 0, sum = 0;
     for (Index k = 0; k < list.length[w]; ++k) {
-      const Index f = list.entry[first + k * ListView::stride()];
+      const Index f = row.one(k);
       const Vec3 d = box.separation(at, xyz(c.fluid.place[f]));
       const Real r2 = dot(d, d);
       if (r2 >= square(c.flow.support)) continue;

@@ -23,11 +23,11 @@ struct AddImpulse {
   Span<Impulse> impulse;
 
   HOST_DEVICE void operator()(Index w) const {
-    const Offset first = list.row(w);
+    const ListRow row = list.entries(w);
     const Index pairs = list.length[w];
     if (pairs == 0) return;
     Impulse sum = impulse[id[w]];
-    for (Index k = 0; k < pairs; ++k) add_pair(w, list.entry[first + k * ListView::stride()], sum);
+    for (Index k = 0; k < pairs; ++k) add_pair(w, row.one(k), sum);
     impulse[id[w]] = sum;
   }
 
@@ -68,10 +68,10 @@ struct AddImpulse {
 
   // It is stored with the pairs of the fluid particle.
   HOST_DEVICE Real yield_stress_of(Index w, Index i) const {
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     for (Index k = 0; k < c.wall_list.length[i]; ++k) {
-      const Offset at = first + k * ListView::stride();
-      if (c.wall_list.entry[at] == w) return yield.stress[at];
+      const Offset at = row.at(k);
+      if (row.one(k) == w) return yield.stress[at];
     }
     return 0;
   }

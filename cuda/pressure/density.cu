@@ -90,11 +90,11 @@ struct DensityAndShear {
     const LaneVec3 x = in_lanes(centre.place), v = in_lanes(centre.velocity),
                    f = in_lanes(centre.by_pressure);
     const Lanes half = Real(0.5) * moved;
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
-      foresee(j);
+      const Entries j = row[k];
+      row.foresee(k);
       const QuadLanes there = gather(c.fluid.place, j), other = gather(c.fluid.motion, j);
       const LaneVec3 slip = v - xyz(other), d = box.separation(x, xyz(there)) - half * slip;
       const Lanes r2 = dot(d, d);
@@ -158,10 +158,10 @@ struct DensityAndShear {
                    travelled = in_lanes(moved * centre.velocity), hydrostatic = in_lanes(c.flow.gravity);
     const Lanes half = Real(0.5), slope = centre.rest_density * inverse_stiffness;
     const bool walls_move = c.wall.moved.size > 0;
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       LaneVec3 change = travelled, falls = hydrostatic;
       QuadLanes other = gather(c.wall.velocity, j);
       if (walls_move) {

@@ -47,11 +47,11 @@ struct Shift {
 
   HOST_DEVICE void add(const ListView& list, Index i, LaneVec3 x, Crowding& sum, Span<const Quad> places,
                        bool walls) const {
-    const Offset first = list.row(i);
+    const ListRow row = list.entries(i);
     const Index pairs = list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &list.entry[first + k * ListView::stride()];
-      foresee(j);
+      const Entries j = row[k];
+      row.foresee(k);
       const QuadLanes there = gather(places, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);

@@ -96,6 +96,8 @@ Simulation::State::State(const SimulationSetup& s)
       yielded(context, "yielded"),
       side_stream(context) {
   if (setup.time_parts) step_graph.launch_singly();
+  if (setup.numerics.weights == StoredWeights::brief)
+    viscous.shorten_weights(short_weight_unit(middle_weight(setup)));
   departed.resize(s.fluids.size());
   ordering.set_outlets(outlet_boxes(s), s.fluids.size());
   time = setup.start_time, last_dt = setup.last_step;

@@ -33,11 +33,11 @@ struct PairLoop {
   template <class Visit>
   HOST_DEVICE void over_fluid(Index i, Visit visit) const {
     const LaneVec3 x = in_lanes(xyz(c.fluid.place[i]));
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Offset at = first + k * ListView::stride();
-      const Index* j = &c.fluid_list.entry[at];
+      const Offset at = row.at(k);
+      const Entries j = row[k];
       const QuadLanes there = gather(c.fluid.place, j);
       const LaneVec3 d = box.separation(x, xyz(there));
       const Lanes r2 = dot(d, d);
@@ -47,7 +47,7 @@ struct PairLoop {
     }
   }
 
-  HOST_DEVICE Halves halves(Index i, const Index* j) const {
+  HOST_DEVICE Halves halves(Index i, const Entries& j) const {
     Halves h;
     if (c.fluids.size == 1) return h;
     const Lanes own = c.fluid.state[i].y, other = gather(c.fluid.state, j).y, one = 1;
@@ -62,10 +62,10 @@ struct PairLoop {
   template <class Visit>
   HOST_DEVICE void over_walls(Index i, Visit visit) const {
     const Vec3 x = xyz(c.fluid.place[i]);
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     for (Index k = 0; k < c.wall_list.length[i]; ++k) {
-      const Offset at = first + k * ListView::stride();
-      const Index j = c.wall_list.entry[at];
+      const Offset at = row.at(k);
+      const Index j = row.one(k);
       const Vec3 d = box.separation(x, xyz(c.wall.place[j]));
       const Real r2 = dot(d, d);
       const Quad motion = c.wall.velocity[j];
@@ -91,7 +91,7 @@ struct YieldForces {
   HOST_DEVICE void over_fluid(Index i, Visit visit) const {
     const Real volume = loop.c.fluid.place[i].w, share = 2 * held[i] - 1;
     const Lanes own_factor = volume * share, root_volume = std::sqrt(volume);
-    loop.over_fluid(i, [&](Offset at, const Index* j, Lanes their, LaneVec3 d, Lanes g) {
+    loop.over_fluid(i, [&](Offset at, const Entries& j, Lanes their, LaneVec3 d, Lanes g) {
       const Halves half = loop.halves(i, j);
       const Lanes other_factor = their * (Real(2) * gather(held, j) - Real(1));
       const Lanes stress = half.own * own_factor * (root(their) * load_lanes(&own[at])) +
@@ -119,7 +119,7 @@ struct AddForce {
   HOST_DEVICE void operator()(Index i) const {
     LaneVec3 sum;
     Lanes squares = 0;
-    forces.over_fluid(i, [&](const Index*, LaneVec3 force) { sum += force, squares += dot(force, force); });
+    forces.over_fluid(i, [&](const Entries&, LaneVec3 force) { sum += force, squares += dot(force, force); });
     Vec3 walls;
     Real wall_squares = 0;
     forces.over_walls(i, [&](Vec3, Vec3 force) { walls += force, wall_squares += dot(force, force); });
@@ -139,7 +139,7 @@ struct WorkOfYield {
   HOST_DEVICE void operator()(Index i) const {
     const Vec3 mean = Real(0.5) * (xyz(predicted[i]) + xyz(solved[i]));
     Lanes sum = 0;
-    forces.over_fluid(i, [&](const Index* j, LaneVec3 force) {
+    forces.over_fluid(i, [&](const Entries& j, LaneVec3 force) {
       const LaneVec3 there = Lanes(Real(0.5)) * (xyz(gather(predicted, j)) + xyz(gather(solved, j)));
       sum += dot(force, in_lanes(mean) - there);
     });
@@ -153,10 +153,10 @@ struct WorkOfYield {
 // would take from those of the sum.
 struct Velocities {
   Span<const Quad> predicted, increment;
-  HOST_DEVICE LaneVec3 predicted_difference(Index i, const Index* j) const {
+  HOST_DEVICE LaneVec3 predicted_difference(Index i, const Entries& j) const {
     return in_lanes(xyz(predicted[i])) - xyz(gather(predicted, j));
   }
-  HOST_DEVICE LaneVec3 increment_difference(Index i, const Index* j) const {
+  HOST_DEVICE LaneVec3 increment_difference(Index i, const Entries& j) const {
     return in_lanes(xyz(increment[i])) - xyz(gather(increment, j));
   }
 };
@@ -197,7 +197,7 @@ struct Update {
     return augmentation[i] > 0 ? (1 - f) / augmentation[i] : Real(0);
   }
 
-  HOST_DEVICE Lanes along_chord(Index i, const Index* j) const {
+  HOST_DEVICE Lanes along_chord(Index i, const Entries& j) const {
     if (!(chords.turn > 0)) return 0;
     return chords.added(in_lanes(xyz(chords.velocity[i])) - xyz(gather(chords.velocity, j)));
   }
@@ -207,7 +207,7 @@ struct Update {
     const Lanes keep = kept(held[i]), step = over_relaxation * augmentation[i],
                 root_volume = std::sqrt(volume), last = sheared(i, held[i]);
     RowSums<Lanes> sums;
-    loop.over_fluid(i, [&](Offset at, const Index* j, Lanes their, LaneVec3 d, Lanes g) {
+    loop.over_fluid(i, [&](Offset at, const Entries& j, Lanes their, LaneVec3 d, Lanes g) {
       const LaneVec3 before = velocity.predicted_difference(i, j),
                      added = velocity.increment_difference(i, j);
       const Halves half = loop.halves(i, j);

@@ -38,6 +38,11 @@ struct Augmentation {
   Real unit, fixed, largest_factor;  // [Pa s]
 };
 
+// Rows of a list that was, by the ids of its particles.
+struct IdLists : RowLayout {
+  Span<const Index> id;
+};
+
 class ExactYield {
  public:
   explicit ExactYield(Context&);
@@ -104,7 +109,7 @@ class ExactYield {
     Layout(Context& c, const char* name) : slice(c, name), length(c, name), id(c, name) {}
     Buffer<Offset> slice;
     Buffer<Index> length, id;
-    ListView view() const { return {slice.span(), length.span(), id.span()}; }
+    IdLists view() const { return {{slice.span(), length.span()}, id.span()}; }
   };
   void remember(const Lists&, Index ids);
   void record(const NeighbourList&, Span<const Index> id, Layout&);

@@ -58,10 +58,11 @@ struct Rescale {
 
   HOST_DEVICE void operator()(Index i) const {
     const Real mine = factor(i);
-    const Offset first = fluid_list.row(i), first_wall = wall_list.row(i);
+    const ListRow row = fluid_list.entries(i);
+    const Offset first_wall = wall_list.row(i);
     for (Index k = 0; k < fluid_list.length[i]; ++k) {
-      const Offset at = first + k * ListView::stride();
-      own[at] *= mine, other[at] *= factor(fluid_list.entry[at]);
+      const Offset at = row.at(k);
+      own[at] *= mine, other[at] *= factor(row.one(k));
     }
     for (Index k = 0; k < wall_list.length[i]; ++k) wall[first_wall + k * ListView::stride()] *= mine;
     new_held[i] = mine > 0 ? held[i] / mine : Real(0);

@@ -11,8 +11,8 @@ namespace {
 // Finds p of the new rows in the old ones. Most neighbours stay, in their order: the search goes on from the
 // last one found.
 struct OldRow {
-  ListView list;  // its entries are ids
-  Index row;      // -1: there is none
+  const IdLists& list;
+  Index row;  // -1: there is none
 
   HOST_DEVICE Offset find(Index id, Index& cursor) const {
     if (row < 0) return -1;
@@ -20,7 +20,7 @@ struct OldRow {
     for (Index t = 0; t < n; ++t) {
       const Index k = cursor + t < n ? cursor + t : cursor + t - n;
       const Offset at = list.row(row) + k * ListView::stride();
-      if (list.entry[at] != id) continue;
+      if (list.id[at] != id) continue;
       cursor = k + 1 < n ? k + 1 : 0;
       return at;
     }
@@ -29,7 +29,8 @@ struct OldRow {
 };
 
 struct Carry {
-  ListView fluid_list, wall_list, old_fluid, old_wall;
+  ListView fluid_list, wall_list;
+  IdLists old_fluid, old_wall;
   Span<const Index> id, wall_id, row_of_id;
   Span<const Real> held, relative, old_own, old_other, old_wall_stress;
   Span<Real> new_held, new_relative, own, other, wall;
@@ -38,17 +39,18 @@ struct Carry {
     const Index row = id[i] < row_of_id.size ? row_of_id[id[i]] : -1;
     const OldRow fluid_row{old_fluid, row}, wall_row{old_wall, row};
     const Index n = fluid_list.length[i], walls = wall_list.length[i];
+    const ListRow of_fluid = fluid_list.entries(i), of_walls = wall_list.entries(i);
     Index cursor = 0;
     for (Index k = 0; k < whole_lanes(n); ++k) {
-      const Offset at = fluid_list.row(i) + k * ListView::stride();
-      const Offset from = k < n ? fluid_row.find(id[fluid_list.entry[at]], cursor) : -1;
+      const Offset at = of_fluid.at(k);
+      const Offset from = k < n ? fluid_row.find(id[of_fluid.one(k)], cursor) : -1;
       own[at] = from < 0 ? 0 : old_own[from];
       other[at] = from < 0 ? 0 : old_other[from];
     }
     cursor = 0;
     for (Index k = 0; k < whole_lanes(walls); ++k) {
-      const Offset at = wall_list.row(i) + k * ListView::stride();
-      const Offset from = k < walls ? wall_row.find(wall_id[wall_list.entry[at]], cursor) : -1;
+      const Offset at = of_walls.at(k);
+      const Offset from = k < walls ? wall_row.find(wall_id[of_walls.one(k)], cursor) : -1;
       wall[at] = from < 0 ? 0 : old_wall_stress[from];
     }
     new_held[i] = row < 0 ? Real(1) : held[row];
@@ -73,12 +75,9 @@ struct Record {
   Span<const Index> id;
   Span<Index> length, entry;
   HOST_DEVICE void operator()(Index i) const {
-    const Offset first = list.row(i);
+    const ListRow row = list.entries(i);
     length[i] = list.length[i];
-    for (Index k = 0; k < list.length[i]; ++k) {
-      const Offset at = first + k * ListView::stride();
-      entry[at] = id[list.entry[at]];
-    }
+    for (Index k = 0; k < list.length[i]; ++k) entry[row.at(k)] = id[row.one(k)];
   }
 };
 

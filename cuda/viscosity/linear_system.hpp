@@ -12,6 +12,7 @@
 #include "fluid/lane_math.hpp"
 #include "neighbours/cells.hpp"
 #include "neighbours/neighbours.hpp"
+#include "viscosity/pair_weights.hpp"
 
 namespace slagflow {
 
@@ -27,7 +28,7 @@ struct Chords {
 struct LinearSystem {
   Rows size;
   ListView links;                    // the particles that row i may be linked to
-  Span<const Real> weight;           // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
+  PairWeights weight;                // w_ij [kg/m^2] of each entry of `links`; 0 beyond the end of a row
   Span<const Quad> place;            // xyz: [m] whose differences are d_ij
   Span<const Quad> diagonal;         // xyz: diagonal of A [kg], w: mass [kg]
   Span<const Symmetric3> wall;       // B_i [kg]
@@ -35,25 +36,30 @@ struct LinearSystem {
   PeriodicBox box;
   PairCoupling coupling = PairCoupling::radial;
 
-  // Calls use(space, coupling) with the box, or with an open one, and, in lanes, the coupling as a constant:
-  // what `use` calls is compiled, and inlined, for each. (On a GPU it costs registers.)
+  // Calls use(links, coupling) with links of the box, or of an open one, and, in lanes, of one kind of
+  // weights, and the coupling as a constant: what `use` calls is compiled, and inlined, for each. (On a GPU
+  // it costs registers.)
   template <class Use>
-  HOST_DEVICE void as_one_of(Use use) const {
-    box.any() ? with_coupling(box, use) : with_coupling(OpenBox{}, use);
+  HOST_DEVICE_INLINED void as_one_of(Use use) const {
+    box.any() ? with_weights(box, use) : with_weights(OpenBox{}, use);
   }
+  template <class Box, class Weights>
+  struct Links {
+    Box box;
+    Weights weight;
+  };
 
   // Calls visit(j, w_ij, d_ij) for the links of row i, a register of them at a time; j: their numbers.
-  template <class Box, class Visit>
-  HOST_DEVICE void for_links(const Box& space, Index i, Visit visit) const {
+  template <class Box, class Weights, class Visit>
+  HOST_DEVICE_INLINED void for_links(const Links<Box, Weights>& space, Index i, Visit visit) const {
     const LaneVec3 centre = in_lanes(xyz(place[i]));
-    const Offset first = links.row(i);
+    const ListRow row = links.entries(i);
     const Index n = links.length[i];
     for (Index k = 0; k < n; k += lane_count) {
-      const Offset at = first + k * ListView::stride();
-      const Lanes w = load_lanes(&weight[at]);
-      const Index* j = &links.entry[at];
-      foresee(&weight[at]), foresee(j);
-      visit(j, w, space.separation(centre, xyz(gather(place, j))));
+      const Lanes w = space.weight.load(row.at(k));
+      const Entries j = row[k];
+      space.weight.foresee(row.at(k)), row.foresee(k);
+      visit(j, w, space.box.separation(centre, xyz(gather(place, j))));
     }
   }
 
@@ -63,7 +69,7 @@ struct LinearSystem {
     const LaneVec3 centre = in_lanes(here);
     LaneVec3 sum;
     as_one_of([&](const auto& space, auto how) {
-      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+      for_links(space, i, [&](const Entries& j, Lanes w, LaneVec3 d) {
         sum += couple(how, w, d, centre - xyz(gather(u, j)));
       });
     });
@@ -77,7 +83,7 @@ struct LinearSystem {
     const LaneVec3 centre = in_lanes(xyz(chords.velocity[i]));
     LaneVec3 sum;
     as_one_of([&](const auto& space, auto) {
-      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+      for_links(space, i, [&](const Entries& j, Lanes w, LaneVec3 d) {
         sum += (w * chords.added(centre - xyz(gather(chords.velocity, j)))) * d;
       });
     });
@@ -93,7 +99,7 @@ struct LinearSystem {
     const LaneVec3 here_u = in_lanes(xyz(u[i])), here_v = in_lanes(xyz(v[i]));
     LaneVec3 sum_u, sum_v;
     as_one_of([&](const auto& space, auto how) {
-      for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+      for_links(space, i, [&](const Entries& j, Lanes w, LaneVec3 d) {
         sum_u += couple(how, w, d, here_u - xyz(gather(u, j)));
         if (chords.turn > 0) sum_u += (w * chords.added(last - xyz(gather(chords.velocity, j)))) * d;
         sum_v += couple(how, w, d, here_v - xyz(gather(v, j)));
@@ -107,10 +113,17 @@ struct LinearSystem {
   using Constant = std::integral_constant<PairCoupling, coupling>;
 
   template <class Box, class Use>
-  HOST_DEVICE void with_coupling(const Box& space, Use use) const {
+  HOST_DEVICE_INLINED void with_weights(const Box& space, Use use) const {
     if constexpr (lane_count == 1)
-      use(space, coupling);
-    else if (coupling == PairCoupling::radial)
+      use(Links<Box, PairWeights>{space, weight}, coupling);
+    else if (weight.brief.data)
+      with_coupling(Links<Box, BriefWeights>{space, {weight.brief.data, weight.unit}}, use);
+    else
+      with_coupling(Links<Box, FullWeights>{space, {weight.full.data}}, use);
+  }
+  template <class Space, class Use>
+  HOST_DEVICE_INLINED void with_coupling(const Space& space, Use use) const {
+    if (coupling == PairCoupling::radial)
       use(space, Constant<PairCoupling::radial>());
     else
       use(space, Constant<PairCoupling::isotropic>());
@@ -131,7 +144,7 @@ struct RelaxationRow {
     LaneVec3 sum;
     SymmetricMatrix3<Lanes> links;
     system.as_one_of([&](const auto& space, auto how) {
-      system.for_links(space, i, [&](const Index* j, Lanes w, LaneVec3 d) {
+      system.for_links(space, i, [&](const Entries& j, Lanes w, LaneVec3 d) {
         sum += couple(how, w, d, centre - xyz(gather(u, j)));
         add_coupling(how, w, d, links);
       });

@@ -11,7 +11,7 @@ namespace slagflow {
 // through both. Where temperatures differ see MeltPair. `own`, `other` [Pa s] of particle i and of those at
 // `j`.
 HOST_DEVICE inline Lanes pair_viscosity(const PairContext& c, Index i, Lanes own, Lanes other,
-                                        const Index* j) {
+                                        const Entries& j) {
   const Lanes mean = Real(0.5) * (own + other);
   const Lanes within = c.fluid.melt.size > 0 ? MeltPair(c, i, j).viscosity(own, other) : mean;
   if (c.fluids.size == 1) return within;

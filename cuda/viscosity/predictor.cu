@@ -30,12 +30,12 @@ struct PredictAndAssemble {
     const Quad own = c.fluid.state[i];
     const Real factor = implicit_dt * c.flow.operator_factor;
     LaneVec3 pressure, pairing, diagonal;
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index entries = c.fluid_list.length[i];
     for (Index k = 0; k < entries; k += lane_count) {
-      const Offset at = first + k * ListView::stride();
-      const Index* j = &c.fluid_list.entry[at];
-      foresee(j);
+      const Offset at = row.at(k);
+      const Entries j = row[k];
+      row.foresee(k);
       const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.fluid.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);
@@ -47,10 +47,10 @@ struct PredictAndAssemble {
         pairing -= (share * pairing_pressure(c.flow, Lanes(own.x), other.x, r2)) * d;
         // The same bits for j and i.
         const Lanes mean = pair_viscosity(c, i, Lanes(own.y), other.y, j);
-        weight = (factor * own.z * volume) * mean * c.flow.smoothing.viscous(r2);
+        weight = factor * (own.z * volume) * mean * c.flow.smoothing.viscous(r2);
         diagonal += pair_diagonal(weight, d);  // a preconditioner: half a step away it serves as well
       }
-      store_lanes(&out.weight[at], weight);
+      out.weight.store(at, weight);
     }
     Push push{own.z * total(pressure), own.z * total(pairing)};
     WallPart part = walls(i, x, own, push);
@@ -71,10 +71,10 @@ struct PredictAndAssemble {
     const Real factor = implicit_dt * c.flow.operator_factor * own.z * own.y * c.flow.wall_volume;
     LaneVec3 elastic, given, drag;
     SymmetricMatrix3<Lanes> coupled;
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index entries = c.wall_list.length[i];
     for (Index k = 0; k < entries; k += lane_count) {
-      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(in_lanes(x), xyz(gather(c.wall.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(entries - k);

@@ -13,7 +13,7 @@ struct PredictorOutput {
   Span<Quad> by_pressure;      // xyz: force per volume by pressure [N/m^3]
   Span<Quad> given;            // xyz: impulse by pressure of pairing and walls [N s], beyond what the elastic
                                // energy loses
-  Span<Real> weight;           // w_ij [kg/m^2], laid out as the fluid list; 0 beyond the support
+  PairWeightsToWrite weight;   // w_ij [kg/m^2], laid out as the fluid list; 0 beyond the support
   Span<Quad> diagonal;         // xyz: diagonal of A, w: mass [kg]
   Span<Symmetric3> wall;       // wall block B [kg]
   Span<Quad> right_hand_side;  // xyz: m u* + wall part [kg m/s]

@@ -40,10 +40,10 @@ struct ShearStress {
 
   HOST_DEVICE void add_fluid(Index i, LaneVec3 x, LaneVec3 v, Real factor, Real own,
                              SymmetricMatrix3<Lanes>& sum) const {
-    const Offset first = c.fluid_list.row(i);
+    const ListRow row = c.fluid_list.entries(i);
     const Index pairs = c.fluid_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.fluid_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(x, xyz(gather(c.fluid.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);
@@ -59,10 +59,10 @@ struct ShearStress {
   // A wall particle bears what a fluid particle in its place would.
   HOST_DEVICE void add_walls(Index i, LaneVec3 x, LaneVec3 v, Real factor,
                              SymmetricMatrix3<Lanes>& sum) const {
-    const Offset first = c.wall_list.row(i);
+    const ListRow row = c.wall_list.entries(i);
     const Index pairs = c.wall_list.length[i];
     for (Index k = 0; k < pairs; k += lane_count) {
-      const Index* j = &c.wall_list.entry[first + k * ListView::stride()];
+      const Entries j = row[k];
       const LaneVec3 d = box.separation(x, xyz(gather(c.wall.place, j)));
       const Lanes r2 = dot(d, d);
       const LaneMask near = (r2 < Lanes(square(c.flow.support))) & first_lanes(pairs - k);

@@ -140,6 +140,7 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
       right_hand_side_(c, "right hand side"),
       wall_(c, "wall blocks"),
       weight_(c, "link weights"),
+      short_weight_(c, "link weights"),
       work_(c),
       multigrid_(c),
       yield_(c) {}
@@ -147,16 +148,22 @@ ViscousStep::ViscousStep(Context& c, const NumericsSetup& numerics)
 void ViscousStep::reserve(Index count, Offset pair_capacity, const RowCells& rows) {
   constexpr Offset margin_percent = 1;
   predicted_.resize(count), velocity_.resize(count), diagonal_.resize(count);
-  given_.resize(count), right_hand_side_.resize(count), wall_.resize(count),
-      weight_.resize(pair_capacity, margin_percent);
+  given_.resize(count), right_hand_side_.resize(count), wall_.resize(count);
+  unit_ > 0 ? short_weight_.resize(pair_capacity, margin_percent)
+            : weight_.resize(pair_capacity, margin_percent);
   work_.resize(count);
   if (device_loop() && needs_levels_) multigrid_.prepare(rows, count);
 }
 
+PairWeights ViscousStep::weights() const {
+  if (unit_ > 0) return {short_weight_.span(), unit_};
+  return {weight_.span()};
+}
+
 LinearSystem ViscousStep::system(const PairContext& c) const {
-  return {c.fluid.count,    c.fluid_list, weight_.span(),          c.fluid.place,
-          diagonal_.span(), wall_.span(), right_hand_side_.span(), c.box,
-          c.flow.coupling};
+  return {
+      c.fluid.count,           c.fluid_list, weights(),      c.fluid.place, diagonal_.span(), wall_.span(),
+      right_hand_side_.span(), c.box,        c.flow.coupling};
 }
 
 SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
@@ -200,9 +207,11 @@ Chords ViscousStep::chords(const Step& step, const FluidArrays& fluid) const {
 
 void ViscousStep::assemble(const PairContext& c, const Step& step, FluidArrays& fluid) {
   Section timer(context_, "predictor and assembly");
-  const PredictorOutput out{predicted_.span(),      fluid.by_pressure.span(), given_.span(),
-                            weight_.span(),         diagonal_.span(),         wall_.span(),
-                            right_hand_side_.span()};
+  PairWeightsToWrite weights(weight_.span());
+  if (unit_ > 0) weights = {short_weight_.span(), unit_};
+  const PredictorOutput out{
+      predicted_.span(), fluid.by_pressure.span(), given_.span(), weights, diagonal_.span(),
+      wall_.span(),      right_hand_side_.span()};
   predict_and_assemble(context_, c, out, static_cast<Real>(step.dt), static_cast<Real>(assembled_share()));
 }
 

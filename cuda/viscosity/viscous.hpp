@@ -51,6 +51,9 @@ class ViscousStep {
   // and walls give it [J]. Before the particles move.
   void launch_energy(const FluidArrays&);
 
+  // Keeps the weights of pairs in 16 bits, of this unit [kg/m^2].
+  void shorten_weights(double unit) { unit_ = unit; }
+
   // Sets the first guess to nothing.
   void forget(FluidArrays&);
 
@@ -63,7 +66,7 @@ class ViscousStep {
   Span<const Quad> velocity() const { return velocity_.span(); }
   // Of the step: u*, and w_ij of each entry of the fluid list [kg].
   Span<const Quad> predicted() const { return predicted_.span(); }
-  Span<const Real> weights() const { return weight_.span(); }
+  PairWeights weights() const;
   // The share of the viscous forces that velocity() gives, theta or 0; and what gives the rest, until the
   // fluid moves on.
   double implicit_share() const;
@@ -114,6 +117,8 @@ class ViscousStep {
   Buffer<Quad> given_, base_, predicted_, velocity_, diagonal_, right_hand_side_;
   Buffer<Symmetric3> wall_;
   Buffer<Real> weight_;
+  Buffer<ShortWeight> short_weight_;  // in its place
+  double unit_ = 0;                   // [kg/m^2] of them; 0: none
   SolverWorkspace work_;
   Multigrid multigrid_;
   bool needs_levels_ = false;  // whether the last solve went on with multigrid

@@ -43,14 +43,14 @@ constexpr Real contact_reach = Real(0.95);  // [spacings]
 template <class Separation>
 HOST_DEVICE Real contact_distance(const PairContext& c, Index i, Separation separation) {
   const Vec3 x = xyz(c.fluid.place[i]);
-  const Offset first = c.wall_list.row(i);
+  const ListRow row = c.wall_list.entries(i);
   const Index count = c.wall_list.length[i];
   const auto below = [&](Vec3 from, Quad face) {
     return !(face.w > 0) || dot(from, xyz(face)) < face.w - Real(0.25) * c.flow.spacing;
   };
   Real nearest = Real(1e30);
   for (Index k = 0; k < count; ++k) {
-    const Index w = c.wall_list.entry[first + k * ListView::stride()];
+    const Index w = row.one(k);
     const Vec3 d = separation(x, xyz(c.wall.place[w]));
     if (dot(d, d) >= square(c.flow.support)) continue;
     const Quad face = c.wall.normal[w], back = c.wall.back[w];
@@ -58,7 +58,7 @@ HOST_DEVICE Real contact_distance(const PairContext& c, Index i, Separation sepa
     Real distance = dot(d, xyz(face)) - face.w;
     if (back.w > 0) distance = larger(distance, dot(d, xyz(back)) - back.w);
     for (Index l = 0; l < count && distance < smaller(nearest, Real(0)); ++l) {
-      const Index other = c.wall_list.entry[first + l * ListView::stride()];
+      const Index other = row.one(l);
       const Vec3 e = separation(x, xyz(c.wall.place[other]));
       const Vec3 own_foot = face.w * xyz(face) + (e - d);  // seen from the other wall particle
       const Quad planes[] = {c.wall.normal[other], c.wall.back[other]};

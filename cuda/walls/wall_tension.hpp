@@ -19,7 +19,7 @@ HOST_DEVICE inline Real wall_tension_limit(const PairContext& c, Index w) {
 }
 
 // Of wall particles w[0], w[1], ..., one a lane [Pa].
-HOST_DEVICE inline Lanes wall_tension_limits(const PairContext& c, const Index* w) {
+HOST_DEVICE inline Lanes wall_tension_limits(const PairContext& c, const Entries& w) {
   if (c.wall.tension_limit.size == 0) return c.flow.wall_tension_limit;
   Real limit[lane_count];
   for (int k = 0; k < lane_count; ++k) limit[k] = wall_tension_limit(c, w[k]);

@@ -14,6 +14,7 @@ const Words stepping_names{"implicit", "explicit"};
 const Words yield_names{"regularised", "exact"};
 const Words solver_names{"multigrid", "conjugate_gradient", "sor", "jacobi"};
 const Words loop_names{"batch", "conditional"};
+const Words stored_names{"short", "full"};
 
 enum class Scheme { slagflow, paper };
 
@@ -93,6 +94,11 @@ void describe_solver(CaseVisitor& v, NumericsSetup& n) {
                "build has "
                "nothing to wait for"),
            n.solver_loop, loop_names);
+  v.choice(
+      key("weights",
+          "how the viscous weights of pairs are kept; short: in 16 bits, to 10⁻⁴ of a row of neighbours, "
+          "alike for both of a pair, in half of the memory; full: in the precision of the build"),
+      n.weights, stored_names);
   v.number(key("tolerance",
                "the rms velocity error of a solve is below tolerance g Δt, and below 3 % of what viscosity "
                "and walls add in the step, so that they act in thin fluid too"),

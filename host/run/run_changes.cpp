@@ -17,16 +17,17 @@ namespace {
 const char* const changing_keys =
     "output.* but walls, limits.*, case.description, domain.exits, and of numerics courant, max_time_step, "
     "solver, "
-    "solver_loop, tolerance, max_iterations, relaxation and yield_iterations";
+    "solver_loop, weights, tolerance, max_iterations, relaxation and yield_iterations";
 
 bool begins(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
 
 bool may_change(const std::string& key) {
   if (key == "output.walls") return false;
   if (begins(key, "output.") || begins(key, "limits.")) return true;
-  for (const char* name : {"case.description", "domain.exits", "numerics.courant", "numerics.max_time_step",
-                           "numerics.solver", "numerics.solver_loop", "numerics.tolerance",
-                           "numerics.max_iterations", "numerics.relaxation", "numerics.yield_iterations"})
+  for (const char* name :
+       {"case.description", "domain.exits", "numerics.courant", "numerics.max_time_step", "numerics.solver",
+        "numerics.solver_loop", "numerics.weights", "numerics.tolerance", "numerics.max_iterations",
+        "numerics.relaxation", "numerics.yield_iterations"})
     if (key == name) return true;
   // Where an STL file lies; that the particles are the same is looked at.
   static const std::regex stl(R"((region|wall)\.\d+\.(shapes|subtract)\.\d+\.file)");

@@ -42,16 +42,25 @@ Span<const T> host_span(const std::vector<T>& v) {
 // A neighbour list on the host.
 struct HostList {
   std::vector<Offset> slice;
-  std::vector<Index> length, entry;
+  std::vector<Index> length, base, plain;
+  std::vector<Code> code;
 
   HostList(Context& c, const ListView& v)
-      : slice(download(c, v.slice)), length(download(c, v.length)), entry(download(c, v.entry)) {}
+      : slice(download(c, v.slice)),
+        length(download(c, v.length)),
+        base(download(c, v.base)),
+        plain(download(c, v.plain)),
+        code(download(c, v.code)) {}
 
+  ListView view() const {
+    ListView v{{host_span(slice), host_span(length)}, host_span(code), host_span(base), host_span(plain)};
+    if (code.empty()) v.code = {};
+    return v;
+  }
   std::vector<Index> row(Index i) const {
-    const ListView view{host_span(slice), host_span(length), host_span(entry)};
+    const ListRow entries = view().entries(i);
     std::vector<Index> result;
-    for (Index k = 0; k < length[static_cast<std::size_t>(i)]; ++k)
-      result.push_back(view.entry[view.row(i) + k * ListView::stride()]);
+    for (Index k = 0; k < length[static_cast<std::size_t>(i)]; ++k) result.push_back(entries.one(k));
     return result;
   }
 };

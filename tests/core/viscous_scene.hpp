@@ -30,12 +30,12 @@ struct DeviceSystem {
         weight(s.context, "weights", s.fluid_list.capacity()) {}
 
   PredictorOutput output() {
-    return {predicted.span(), by_pressure.span(), given.span(),          weight.span(),
+    return {predicted.span(), by_pressure.span(), given.span(),          {weight.span()},
             diagonal.span(),  wall.span(),        right_hand_side.span()};
   }
   LinearSystem system(const Scene& s) const {
-    return {s.fluid.count, s.fluid_list.view(),    weight.span(), s.fluid.place.span(), diagonal.span(),
-            wall.span(),   right_hand_side.span(), s.box,         s.flow.coupling};
+    return {s.fluid.count, s.fluid_list.view(),    {weight.span()}, s.fluid.place.span(), diagonal.span(),
+            wall.span(),   right_hand_side.span(), s.box,           s.flow.coupling};
   }
 
   Buffer<Quad> predicted, by_pressure, given, diagonal, right_hand_side;
@@ -53,9 +53,7 @@ class HostSystem {
         diagonal(s.by_id(d.diagonal.span())),
         right_hand_side(s.by_id(d.right_hand_side.span())),
         id_(download(s.context, s.fluid.id.span())),
-        slice_(download(s.context, s.fluid_list.view().slice)),
-        length_(download(s.context, s.fluid_list.view().length)),
-        entry_(download(s.context, s.fluid_list.view().entry)),
+        list_(s.context, s.fluid_list.view()),
         weight_(download(s.context, d.weight.span())),
         x_(download(s.context, s.fluid.place.span())),
         wall_(download(s.context, d.wall.span())),
@@ -86,11 +84,12 @@ class HostSystem {
               static_cast<double>((b * axis[l])[k]) +
               (k == l ? static_cast<double>(s.diagonal[number].w) : 0);
       for (Index k = 0; k < s.links.length[number]; ++k) {
-        const Offset at = s.links.row(number) + k * ListView::stride();
-        const auto other = static_cast<std::size_t>(s.links.entry[at]);
+        const ListRow links = s.links.entries(number);
+        const auto other = static_cast<std::size_t>(links.one(k));
         const auto j = static_cast<std::size_t>(id_[other]);
         const Vec3 d = box_.separation(xyz(x_[row]), xyz(x_[other]));
-        const reference::Vec root = std::sqrt(static_cast<double>(s.weight[at])) * to_host(quad(d, 0));
+        const reference::Vec root =
+            std::sqrt(static_cast<double>(s.weight.one(links.at(k)))) * to_host(quad(d, 0));
         reference::add_block(a, i, i, 1, root);
         reference::add_block(a, i, j, -1, root);
       }
@@ -107,8 +106,8 @@ class HostSystem {
  private:
   LinearSystem system() const {
     return {static_cast<Index>(id_.size()),
-            {host_span(slice_), host_span(length_), host_span(entry_)},
-            host_span(weight_),
+            list_.view(),
+            {host_span(weight_)},
             host_span(x_),
             host_span(device_diagonal_),
             host_span(wall_),
@@ -117,8 +116,7 @@ class HostSystem {
   }
 
   std::vector<Index> id_;
-  std::vector<Offset> slice_;
-  std::vector<Index> length_, entry_;
+  HostList list_;
   std::vector<Real> weight_;
   std::vector<Quad> x_;
   std::vector<Symmetric3> wall_;

@@ -110,19 +110,19 @@ struct AssembleRows {
                                     // drifted here from farther away they are left out
     LinkSum* sum = nullptr;
     Index last = -1;
-    const Offset first = system.links.row(i);
+    const ListRow row = system.links.entries(i);
     const bool periodic = system.box.any();
     const Vec3d short_period = aggregates.grid.short_period();
     for (Index k = 0; k < system.links.length[i]; ++k) {
-      const Offset at = first + k * ListView::stride();
-      const Index j = system.links.entry[at], b = owner[j];
+      const Offset at = row.at(k);
+      const Index j = row.one(k), b = owner[j];
       if (b != last) {
         const int slot = aggregates.grid.slot(aggregates.steps[a], aggregates.steps[b]);
         sum = slot == own_slot || slot < 0 ? &inner : &sums[larger(0, slot - own_slot)];
         last = b;
       }
       Vec3d d = here - to_double(xyz(system.place[j]));
-      const auto weight = static_cast<double>(system.weight[at]);
+      const auto weight = static_cast<double>(system.weight.one(at));
       if (periodic) {
         const Vec3d direct = d;
         d = nearest_image(system.box, d);

@@ -67,7 +67,12 @@ TEST(Lanes, GatherTakesTheNamedElements) {
   std::vector<Index> at;
   for (int k = 0; k < lane_count; ++k) at.push_back((17 * k + 5) % 40);
   const Span<const Quad> span{from.data(), 40};
-  const QuadLanes q = gather(span, at.data()), run = load_lanes(span, 7);
+#if defined(SLAGFLOW_CUDA)
+  const Entries named{at[0]};
+#else
+  const Entries named{at.data()};
+#endif
+  const QuadLanes q = gather(span, named), run = load_lanes(span, 7);
   for (int k = 0; k < lane_count; ++k) {
     const auto lane = static_cast<std::size_t>(k), j = static_cast<std::size_t>(at[lane]);
     EXPECT_EQ(numbers(q.x)[lane], from[j].x);

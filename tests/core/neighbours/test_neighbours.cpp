@@ -212,14 +212,52 @@ TEST_F(Neighbours, EntriesBeyondTheEndOfARowAreSources) {
   const SourceView sources = sort(s, random_points(300, 17, {0, 0, 0}, {1, 1, 1}));
   NeighbourList list(context_, "pairs");
   list.build(sources, wall_.place.span(), s.box(), static_cast<Real>(s.reach), NeighbourList::Pairs::self);
-  const ListView view = list.view();
-  const std::vector<Index> entry = download(context_, view.entry), length = download(context_, view.length);
-  const std::vector<Offset> slice = download(context_, view.slice);
-  for (std::size_t i = 0; i < length.size(); ++i) {
-    const Offset row = slice[i / slice_width] + static_cast<Offset>(i) % slice_width;
-    for (Offset k = length[i]; k < whole_lanes(length[i]); ++k)
-      EXPECT_EQ(entry[static_cast<std::size_t>(row + k)], static_cast<Index>(i)) << "row " << i;
+  const HostList rows(context_, list.view());
+  const auto n = static_cast<Index>(rows.length.size());
+  for (Index i = 0; i < n; ++i) {
+    const Index length = rows.length[static_cast<std::size_t>(i)];
+    for (Index k = length; k < whole_lanes(length); ++k) {
+      EXPECT_GE(rows.view().entries(i).one(k), 0) << "row " << i;
+      EXPECT_LT(rows.view().entries(i).one(k), n) << "row " << i;
+    }
   }
+}
+
+// Nine lines of cells with more than 8192 particles each, and ten particles near their beginnings: one row
+// more than eight bases hold, on a GPU.
+TEST_F(Neighbours, OfLinesThatAreTooLongForTheCodesAreAllListed) {
+  Space s;
+  s.extent = {600 * s.reach, 3 * s.reach, 512 * s.reach};  // planes along x, lines along z
+  Points points;
+  Random random(18);
+  for (int plane = 0; plane < 3; ++plane)
+    for (int line = 0; line < 3; ++line) {
+      const double x = (1.5 + 0.6 * (plane - 1)) * s.reach, y = (1.5 + 0.6 * (line - 1)) * s.reach;
+      const auto at = [&](double z) {
+        points.push_back({static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z * s.reach)});
+      };
+      at(0.4);
+      if (plane == 1 && line == 1) at(0.6);
+      for (int k = 0; k < 8300; ++k) at(3 + 508 * (k + random.uniform(0, 1)) / 8300);
+    }
+  const SourceView sources = sort(s, points);
+  NeighbourList list(context_, "pairs");
+  list.build(sources, wall_.place.span(), s.box(), static_cast<Real>(s.reach), NeighbourList::Pairs::self);
+  EXPECT_EQ(list.view().plain.size > 0, slice_width > 1);
+  const HostList rows(context_, list.view());
+  Index checked = 0, crowded = 0;
+  for (std::size_t i = 0; i < sorted_.size(); ++i) {
+    const bool beginning = static_cast<double>(sorted_[i].z) < s.reach;
+    if (!beginning && i % 2000 != 0) continue;
+    std::vector<Index> near;
+    for (std::size_t j = 0; j < sorted_.size(); ++j)
+      if (i != j && distance_squared(s, sorted_[i], sorted_[j]) < square(s.reach))
+        near.push_back(static_cast<Index>(j));
+    EXPECT_EQ(rows.row(static_cast<Index>(i)), near) << i;
+    ++checked, crowded += near.size() == 9;
+  }
+  EXPECT_GT(checked, 40);
+  EXPECT_GE(crowded, 2);
 }
 
 TEST_F(Neighbours, ListsCanBeBuiltAgainSmallerAndLarger) {
@@ -236,9 +274,9 @@ TEST(ListView, RowsBeginBeyond32Bits) {
   constexpr Offset far = 10000000000;
   const std::vector<Offset> slice{0, far};
   const std::vector<Index> length(2 * slice_width, 100);
-  const ListView list{host_span(slice), host_span(length), {}};
+  const RowLayout list{host_span(slice), host_span(length)};
   EXPECT_EQ(list.row(slice_width), far);
-  EXPECT_EQ(list.row(2 * slice_width - 1) + 99 * ListView::stride(),
+  EXPECT_EQ(list.row(2 * slice_width - 1) + 99 * RowLayout::stride(),
             far + slice_width - 1 + 99 * slice_width);
 }
 
