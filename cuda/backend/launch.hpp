@@ -30,12 +30,13 @@ HOST_DEVICE bool is_idle(const Body& body) {
 
 #if defined(__CUDACC__)
 
-inline constexpr unsigned block_threads = 128;
+inline constexpr unsigned block_threads = chunk_rows;
 inline unsigned blocks_for(Index n) { return (static_cast<unsigned>(n) + block_threads - 1) / block_threads; }
 
 // What a launch is made for: a recording is to hold for any number of elements that there is room for.
 inline Rows to_launch(const Context& context, Rows n) {
-  return context.recording() && n.live ? Rows{n.room, n.room, n.live} : Rows{n.now};
+  return context.recording() && n.live ? Rows{n.room, n.room, n.live, n.planes}
+                                       : Rows{n.now, n.now, nullptr, n.planes};
 }
 
 template <class Body>

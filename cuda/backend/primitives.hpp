@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "backend/context.hpp"
+#include "backend/rows.hpp"
 #include "backend/span.hpp"
 
 namespace slagflow {
@@ -26,7 +27,9 @@ void sort_by_key(Context&, Span<std::uint64_t> keys, Span<Index> values, SortScr
 // result[0] = 0, result[i+1] = result[i] + counts[i]; result has one element more than counts.
 void exclusive_scan(Context&, Span<const Offset> counts, Span<Offset> result);
 
-// Sum in an order that does not depend on the number of threads. Waits for the result.
+// Sum in the order of reduce.hpp, of the first values, as many as there are rows, in their planes; without
+// rows of all, in none. Waits for the result.
+double sum(Context&, Span<const double> values, Rows);
 double sum(Context&, Span<const double> values);
 
 // Largest value, or `floor` when there is none larger. A not-a-number yields not-a-number.

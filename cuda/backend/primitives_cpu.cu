@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "backend/primitives.hpp"
+#include "backend/reduce.hpp"
 
 namespace slagflow {
 
@@ -21,29 +22,36 @@ void exclusive_scan(Context&, Span<const Offset> counts, Span<Offset> result) {
 
 namespace {
 
-// Chunks of fixed length make the order of summation independent of the threads.
-template <class Combine>
-double reduce_in_chunks(Span<const double> values, double start, Combine combine) {
+struct Keep {
+  double* result;
+  void operator()(const Terms<1>& all) const { *result = all.value[0]; }
+};
+
+}  // namespace
+
+double sum(Context& context, Span<const double> values, Rows rows) {
+  double result = 0;
+  launch_reduction<AddUp>(context, "sum", rows, ValueTerm{values}, Keep{&result});
+  return result;
+}
+
+double sum(Context& context, Span<const double> values) {
+  return sum(context, values, static_cast<Index>(values.size));
+}
+
+// In chunks, for threads.
+double maximum(Context&, Span<const double> values, double floor) {
   constexpr Offset chunk = 4096;
+  const auto larger = [](double a, double b) { return std::isnan(a) || a > b ? a : b; };
   const Offset chunks = (values.size + chunk - 1) / chunk;
-  std::vector<double> partial(static_cast<std::size_t>(chunks), start);
+  std::vector<double> largest(static_cast<std::size_t>(chunks), floor);
 #pragma omp parallel for schedule(static)
   for (Offset c = 0; c < chunks; ++c) {
     const double* first = values.data + c * chunk;
     const double* last = values.data + (values.size < (c + 1) * chunk ? values.size : (c + 1) * chunk);
-    partial[static_cast<std::size_t>(c)] = thrust::reduce(thrust::seq, first, last, start, combine);
+    largest[static_cast<std::size_t>(c)] = thrust::reduce(thrust::seq, first, last, floor, larger);
   }
-  return thrust::reduce(thrust::seq, partial.begin(), partial.end(), start, combine);
-}
-
-}  // namespace
-
-double sum(Context&, Span<const double> values) {
-  return reduce_in_chunks(values, 0.0, [](double a, double b) { return a + b; });
-}
-
-double maximum(Context&, Span<const double> values, double floor) {
-  return reduce_in_chunks(values, floor, [](double a, double b) { return std::isnan(a) || a > b ? a : b; });
+  return thrust::reduce(thrust::seq, largest.begin(), largest.end(), floor, larger);
 }
 
 }  // namespace slagflow

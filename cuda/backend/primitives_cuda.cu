@@ -50,22 +50,15 @@ void exclusive_scan(Context& context, Span<const Offset> counts, Span<Offset> re
 
 namespace {
 
-struct Value {
-  static constexpr int terms = 1;
-  Span<const double> values;
-  HOST_DEVICE Terms<1> operator()(Index i) const { return {{values[i]}}; }
-};
-
 struct Keep {
   double* result;
   HOST_DEVICE void operator()(const Terms<1>& all) const { *result = all.value[0]; }
 };
 
 template <class Reduction>
-double reduced(Context& context, Span<const double> values) {
+double reduced(Context& context, Span<const double> values, Rows rows) {
   auto* result = reinterpret_cast<double*>(static_cast<char*>(context.ticket()) + Context::result_at);
-  launch_reduction<Reduction>(context, "reduction", static_cast<Index>(values.size), Value{values},
-                              Keep{result});
+  launch_reduction<Reduction>(context, "reduction", rows, ValueTerm{values}, Keep{result});
   double host = 0;
   context.copy_to_host(&host, result, sizeof host);
   return host;
@@ -75,10 +68,16 @@ double above(double floor, double largest) { return largest < floor ? floor : la
 
 }  // namespace
 
-double sum(Context& context, Span<const double> values) { return reduced<AddUp>(context, values); }
+double sum(Context& context, Span<const double> values, Rows rows) {
+  return reduced<AddUp>(context, values, rows);
+}
+
+double sum(Context& context, Span<const double> values) {
+  return sum(context, values, static_cast<Index>(values.size));
+}
 
 double maximum(Context& context, Span<const double> values, double floor) {
-  return above(floor, reduced<TakeLargest>(context, values));
+  return above(floor, reduced<TakeLargest>(context, values, static_cast<Index>(values.size)));
 }
 
 }  // namespace slagflow

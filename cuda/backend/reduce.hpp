@@ -1,5 +1,7 @@
 // Sums and maxima over particles that stay on the device: a last body takes them there, and the host need not
-// wait. The order of summation is fixed.
+// wait. The order of summation is fixed, and the same on both back ends: the terms of a chunk of rows, the
+// chunks of a plane, the planes from the first to the last. So sums do not depend on who computes which of
+// the planes, and an empty one changes nothing.
 #pragma once
 
 #include "backend/launch.hpp"
@@ -23,6 +25,17 @@ struct TakeLargest {
   static constexpr double start = -1e30;
   HOST_DEVICE static double combine(double a, double b) { return a != a || a > b ? a : b; }
 };
+
+// Of an array.
+struct ValueTerm {
+  static constexpr int terms = 1;
+  static constexpr Index grain = 4096;
+  Span<const double> values;
+  HOST_DEVICE Terms<1> operator()(Index i) const { return {{values[i]}}; }
+};
+
+// How many threads add up the chunks of a plane.
+inline constexpr int plane_lanes = 8;
 
 #if defined(__CUDACC__)
 
@@ -51,37 +64,82 @@ __device__ Terms<count> nothing() {
   return terms;
 }
 
-// Each block leaves its share in `partial`; the one that comes last, by `ticket`, reduces the shares in
-// order.
+// What the chunks left in `partial`, of all rows in no planes.
+template <class Reduction, int count>
+__device__ Terms<count> of_chunks(Offset chunks, const volatile double* partial) {
+  Terms<count> own = nothing<Reduction, count>();
+  for (Offset chunk = threadIdx.x; chunk < chunks; chunk += block_threads)
+    for (int k = 0; k < count; ++k)
+      own.value[k] = Reduction::combine(own.value[k], partial[chunk * count + k]);
+  return across_block<Reduction>(own);
+}
+
+// Plane by plane, some threads of a warp each. The first thread has the result.
+template <class Reduction, int count>
+__device__ Terms<count> of_planes(const Rows& n, const volatile double* partial) {
+  constexpr Index at_once = block_threads / plane_lanes;
+  __shared__ double sums[at_once][count];
+  const auto thread = static_cast<Index>(threadIdx.x);
+  const Index own_plane = thread / plane_lanes, lane = thread % plane_lanes;
+  Terms<count> all = nothing<Reduction, count>();
+  for (Index first = 0; first <= n.planes.count; first += at_once) {
+    const Index plane = first + own_plane;
+    const Offset end = plane <= n.planes.count ? n.first_chunk(plane + 1) : 0;
+    Terms<count> own = nothing<Reduction, count>();
+    for (Offset chunk = end > 0 ? n.first_chunk(plane) + lane : 0; chunk < end; chunk += plane_lanes)
+      for (int k = 0; k < count; ++k)
+        own.value[k] = Reduction::combine(own.value[k], partial[chunk * count + k]);
+    for (int k = 0; k < count; ++k) {
+      for (unsigned step = plane_lanes / 2; step > 0; step /= 2)
+        own.value[k] = Reduction::combine(own.value[k], __shfl_down_sync(~0u, own.value[k], step));
+      if (lane == 0) sums[own_plane][k] = own.value[k];
+    }
+    __syncthreads();
+    for (Index p = 0; thread == 0 && p < at_once; ++p)
+      for (int k = 0; k < count; ++k) all.value[k] = Reduction::combine(all.value[k], sums[p][k]);
+    __syncthreads();
+  }
+  return all;
+}
+
+// A block a chunk leaves its share in `partial`; the one that comes last, by `ticket`, goes on with the
+// shares. Without rows there is one block all the same. Those beyond the chunks do nothing.
 template <class Reduction, class Body, class Finish>
 __global__ void run_reduction(Body body, Rows n, Finish finish, volatile double* partial, unsigned* ticket) {
-  if (is_idle(body)) return;
+  const Offset chunk = blockIdx.x, found = n.chunks(), chunks = found > 0 ? found : 1;
+  if (chunk >= chunks || is_idle(body)) return;
   constexpr int count = Body::terms;
-  const Offset i = static_cast<Offset>(blockIdx.x) * blockDim.x + threadIdx.x;
+  const RowRange rows = n.chunk(chunk);
   Terms<count> own = nothing<Reduction, count>();
-  if (i < n.on_device()) own = body(static_cast<Index>(i));
+  const Index i = rows.first + static_cast<Index>(threadIdx.x);
+  if (i < rows.end) own = body(i);
   own = across_block<Reduction>(own);
   __shared__ bool last;
   if (threadIdx.x == 0) {
-    for (int k = 0; k < count; ++k) partial[static_cast<Offset>(blockIdx.x) * count + k] = own.value[k];
+    for (int k = 0; k < count; ++k) partial[chunk * count + k] = own.value[k];
     __threadfence();
-    last = atomicInc(ticket, gridDim.x - 1) == gridDim.x - 1;  // ends at zero, for the next reduction
+    const auto most = static_cast<unsigned>(chunks - 1);
+    last = atomicInc(ticket, most) == most;  // ends at zero, for the next reduction
   }
   __syncthreads();
   if (!last) return;
   __threadfence();
-  own = nothing<Reduction, count>();
-  for (Offset block = threadIdx.x; block < gridDim.x; block += blockDim.x)
-    for (int k = 0; k < count; ++k)
-      own.value[k] = Reduction::combine(own.value[k], partial[block * count + k]);
-  own = across_block<Reduction>(own);
+  own = n.planes.count > 0 ? of_planes<Reduction, count>(n, partial)
+                           : of_chunks<Reduction, count>(chunks, partial);
   if (threadIdx.x == 0) finish(own);
 }
 
-// Takes the memory of reductions over up to n elements of up to `terms` terms, so that they can be recorded.
-inline void reserve_reductions(Context& context, Index n, int terms) {
-  const unsigned blocks = n > 0 ? blocks_for(n) : 1;
-  context.workspace(static_cast<std::size_t>(blocks) * static_cast<std::size_t>(terms) * sizeof(double));
+// Of a reduction over so many of the rows.
+inline unsigned reduction_blocks(const Rows& n, Index count) {
+  const Offset most = n.most_chunks(count);
+  return most > 0 ? static_cast<unsigned>(most) : 1;
+}
+
+// Takes the memory of reductions of up to `terms` terms over as many elements as there is room for, so that
+// they can be recorded.
+inline void reserve_reductions(Context& context, const Rows& n, int terms) {
+  const std::size_t blocks = reduction_blocks(n, n.room);
+  context.workspace(blocks * static_cast<std::size_t>(terms) * sizeof(double));
   context.ticket();
 }
 
@@ -91,7 +149,7 @@ template <class Reduction, class Body, class Finish>
 void launch_reduction(Context& context, const char* label, Rows rows, const Body& body,
                       const Finish& finish) {
   const Rows n = to_launch(context, rows);
-  const unsigned blocks = n > 0 ? blocks_for(n) : 1;
+  const unsigned blocks = reduction_blocks(n, n.now);
   auto* partial =
       static_cast<double*>(context.workspace(static_cast<std::size_t>(blocks) * sizeof(Terms<Body::terms>)));
   context.count_launch();
@@ -102,7 +160,78 @@ void launch_reduction(Context& context, const char* label, Rows rows, const Body
 
 #else
 
-inline void reserve_reductions(Context&, Index, int) {}
+inline void reserve_reductions(Context&, const Rows&, int) {}
+
+// values[0] = their sum, as threads of a warp add up.
+template <int count>
+void add_as_tree(double* values) {
+  for (int i = 0; i < count / 2; ++i) values[i] += values[i + count / 2];
+  if constexpr (count > 2) add_as_tree<count / 2>(values);
+}
+
+// As across_block() does on a GPU. Changes the values.
+inline double add_up_chunk(double* values) {
+  constexpr int warp = 32;
+  for (int first = 0; first < chunk_rows; first += warp) add_as_tree<warp>(values + first);
+  for (int first = warp; first < chunk_rows; first += warp) values[0] += values[first];
+  return values[0];
+}
+
+// Deals the values out to so many lanes.
+template <int lanes>
+void deal_out(const double* values, Offset count, double (&of_lane)[lanes]) {
+  for (double& lane : of_lane) lane = 0;
+  Offset first = 0;
+  for (; first + lanes <= count; first += lanes)
+    for (int lane = 0; lane < lanes; ++lane) of_lane[lane] += values[first + lane];
+  for (int lane = 0; first + lane < count; ++lane) of_lane[lane] += values[first + lane];
+}
+
+// What of_chunks() and of_planes() do on a GPU.
+inline double add_up_chunks(const Rows& n, const double* partial) {
+  if (n.planes.count == 0) {
+    double lanes[chunk_rows];
+    deal_out(partial, n.chunks(), lanes);
+    return add_up_chunk(lanes);
+  }
+  double all = 0, lanes[plane_lanes];
+  for (Index plane = 0; plane <= n.planes.count; ++plane) {
+    const Offset first = n.first_chunk(plane);
+    deal_out(partial + first, n.first_chunk(plane + 1) - first, lanes);
+    add_as_tree<plane_lanes>(lanes);
+    all += lanes[0];
+  }
+  return all;
+}
+
+// The sum of each term over a chunk goes to result[0], result[stride], ...
+template <class Body>
+void add_up_rows(const Body& body, RowRange rows, double* result, Offset stride) {
+  constexpr int count = Body::terms;
+  double values[count][chunk_rows];
+  const Index size = rows.end - rows.first;
+  for (Index i = 0; i < size; ++i) {
+    const Terms<count> own = body(rows.first + i);
+    for (int k = 0; k < count; ++k) values[k][i] = own.value[k];
+  }
+  for (int k = 0; k < count; ++k) {
+    for (Index i = size; i < chunk_rows; ++i) values[k][i] = 0;
+    result[k * stride] = add_up_chunk(values[k]);
+  }
+}
+
+template <class Body>
+Terms<Body::terms> reduce(AddUp, Context& context, const Rows& n, const Body& body) {
+  constexpr Offset grain = (Grain<Body>::value + chunk_rows - 1) / chunk_rows;
+  const Offset chunks = n.chunks();
+  auto* partial =
+      static_cast<double*>(context.workspace(static_cast<std::size_t>(chunks) * sizeof(Terms<Body::terms>)));
+#pragma omp parallel for schedule(dynamic, grain) if (chunks > 2 * grain)
+  for (Offset c = 0; c < chunks; ++c) add_up_rows(body, n.chunk(c), partial + c, chunks);
+  Terms<Body::terms> result;
+  for (int k = 0; k < Body::terms; ++k) result.value[k] = add_up_chunks(n, partial + k * chunks);
+  return result;
+}
 
 template <class Body>
 struct StoreTerms {
@@ -115,24 +244,21 @@ struct StoreTerms {
   }
 };
 
-inline double reduce(AddUp, Context& context, Span<const double> values) { return sum(context, values); }
-inline double reduce(TakeLargest, Context& context, Span<const double> values) {
-  return maximum(context, values, TakeLargest::start);
-}
-
-template <class Reduction, class Body, class Finish>
-void launch_reduction(Context& context, const char* label, Rows rows, const Body& body,
-                      const Finish& finish) {
-  if (is_idle(body)) return;
-  const Index n = rows;
+template <class Body>
+Terms<Body::terms> reduce(TakeLargest, Context& context, Index n, const Body& body) {
   constexpr auto count = static_cast<std::size_t>(Body::terms);
   auto* values =
       static_cast<double*>(context.workspace(static_cast<std::size_t>(n) * count * sizeof(double)));
-  launch(context, label, n, StoreTerms<Body>{body, n, values});
+  launch(context, "largest", n, StoreTerms<Body>{body, n, values});
   Terms<Body::terms> result;
   for (std::size_t k = 0; k < count; ++k)
-    result.value[k] = reduce(Reduction{}, context, {values + k * static_cast<std::size_t>(n), n});
-  finish(result);
+    result.value[k] = maximum(context, {values + k * static_cast<std::size_t>(n), n}, TakeLargest::start);
+  return result;
+}
+
+template <class Reduction, class Body, class Finish>
+void launch_reduction(Context& context, const char*, Rows n, const Body& body, const Finish& finish) {
+  if (!is_idle(body)) finish(reduce(Reduction{}, context, n, body));
 }
 
 #endif

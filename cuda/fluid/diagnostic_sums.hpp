@@ -23,7 +23,7 @@ struct KeepTerms {
 
 // Reduces a body with several terms and waits for them.
 template <class Reduction, class Body>
-Terms<Body::terms> reduce_terms(Context& context, DiagnosticScratch& scratch, Index n, const Body& body) {
+Terms<Body::terms> reduce_terms(Context& context, DiagnosticScratch& scratch, Rows n, const Body& body) {
   static_assert(Body::terms <= DiagnosticScratch::most_terms);
   launch_reduction<Reduction>(context, "diagnostic sum", n, body,
                               KeepTerms<Body::terms>{scratch.result.span().data});
@@ -32,20 +32,20 @@ Terms<Body::terms> reduce_terms(Context& context, DiagnosticScratch& scratch, In
   return all;
 }
 
-// Sum of term(i) over i in [0, n).
+// Sum of term(i) over i in [0, n), by planes where the rows are in planes.
 template <class Term>
-double total(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
+double total(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
   return reduce_terms<AddUp>(context, scratch, n, OneTerm<Term>{term}).value[0];
 }
 
 // The same of whole numbers; exact up to 2^53.
 template <class Term>
-std::int64_t count(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
+std::int64_t count(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
   return static_cast<std::int64_t>(total(context, scratch, n, term));
 }
 
 template <class Term>
-double largest(Context& context, DiagnosticScratch& scratch, Index n, Term term) {
+double largest(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
   return reduce_terms<TakeLargest>(context, scratch, n, OneTerm<Term>{term}).value[0];
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "backend/buffer.hpp"
-#include "backend/rows.hpp"
+#include "backend/plane_table.hpp"
 #include "fluid/math.hpp"
 
 namespace slagflow {
@@ -41,7 +41,9 @@ class ParticleArray;
 // As many particles as `count`, in memory for as many as `capacity`.
 class ParticleArrays {
  public:
-  explicit ParticleArrays(Context& c) : context(c), live_(c, "number of particles", 1) { count_anew(0); }
+  explicit ParticleArrays(Context& c) : context(c), live_(c, "number of particles", 1), planes_(c) {
+    count_anew(0);
+  }
   ParticleArrays(const ParticleArrays&) = delete;
   ParticleArrays& operator=(const ParticleArrays&) = delete;
 
@@ -52,6 +54,14 @@ class ParticleArrays {
   // What is there stays, up to the new count. Beyond the capacity that grows by a quarter at least, so that
   // few of the times that particles come take memory.
   void resize(Index n);
+
+  // Sums go by these planes of all particles from now on. Those that come later are behind them; when some
+  // go, the planes do.
+  void put_in_planes(const PlaneStarts& starts) {
+    planes_.find(starts, capacity_);
+    in_planes_ = count;
+    count.planes = planes_.view();
+  }
 
   // Calls visit(array) for each, in the order of their declaration.
   template <class Visit>
@@ -73,12 +83,15 @@ class ParticleArrays {
                            ParticleArray<float>*, ParticleArray<Index>*, ParticleArray<std::uint8_t>*>;
   void count_anew(Index n) {
     live_.upload({n});
-    count = {n, capacity_, live_.span().data};
+    if (n < in_planes_) in_planes_ = 0;
+    count = {n, capacity_, live_.span().data, in_planes_ > 0 ? planes_.view() : Planes{}};
   }
 
   std::vector<Any> list_;
   Index capacity_ = 0;
   Buffer<Index> live_;
+  PlaneTable planes_;
+  Index in_planes_ = 0;
 };
 
 template <class T>

@@ -44,6 +44,10 @@ struct CellGrid {
   static CellGrid cover(Vec3d extent, const std::array<bool, 3>& periodic, double width,
                         double most = usual_most);
 
+  // Slabs of one cell's width across the slowest axis, and the cells of each, which follow each other.
+  Index planes() const { return lines[2].count; }
+  Index cells_of_plane() const { return lines[2].stride; }
+
   HOST_DEVICE Index cells() const { return count[0] * count[1] * count[2]; }
   HOST_DEVICE Index cell_of(Vec3 place) const {
     return along(lines[2], place[order.axis[2]]) * lines[2].stride +

@@ -164,14 +164,20 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
   sort_keys(n);
   reorder(f, n);
   f.resize(left);
-  fluid_cells_.find(context_, grid_, key_.span(), left);
+  find_cells(f, left);
 }
 
-void Ordering::find_cells(const FluidArrays& f) {
+// By the sorted keys. Sums over the fluid go by planes of cells.
+void Ordering::find_cells(FluidArrays& f, Index count) {
+  fluid_cells_.find(context_, grid_, key_.span(), count);
+  f.put_in_planes({fluid_cells_.start.span(), grid_.cells_of_plane(), grid_.planes()});
+}
+
+void Ordering::find_cells(FluidArrays& f) {
   key_.resize(f.count), order_.resize(f.count);
   launch(context_, "cell keys", f.count,
          PlaceKey{grid_, f.place.span(), f.id.span(), key_.span(), order_.span()});
-  fluid_cells_.find(context_, grid_, key_.span(), f.count);
+  find_cells(f, f.count);
 }
 
 void Ordering::sort(WallArrays& w) {

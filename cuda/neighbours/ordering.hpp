@@ -38,7 +38,7 @@ class Ordering {
   std::vector<std::int64_t> removed;  // by outlet, then by fluid
 
   // Finds the cells of particles that are in order already.
-  void find_cells(const FluidArrays&);
+  void find_cells(FluidArrays&);
 
   SourceView fluid_sources(const FluidArrays& f) const {
     return {grid_, fluid_cells_.start.span(), f.place.span()};
@@ -53,6 +53,7 @@ class Ordering {
   // All arrays as order_ says, of `count` particles.
   void reorder(const ParticleArrays&, Index count);
   Index drop(const FluidArrays&, DepartureCounts& departed);
+  void find_cells(FluidArrays&, Index count);
 
   Context& context_;
   Vec3d extent_;

@@ -192,7 +192,7 @@ FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& fro
 Totals measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
                       const SimulationSetup& setup, DiagnosticScratch& scratch) {
   Totals t;
-  const Index n = f.count;
+  const Rows n = f.count;
   const auto position = f.position.span();
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
@@ -231,7 +231,7 @@ double energy_from(Context& c, Index first, const FluidArrays& f, Span<const Flu
 
 Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
                       const SimulationSetup& setup, DiagnosticScratch& scratch) {
-  const Index n = f.count;
+  const Rows n = f.count;
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
   const auto most = reduce_terms<TakeLargest>(

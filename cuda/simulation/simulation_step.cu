@@ -77,7 +77,8 @@ double Simulation::State::levels_recorded() const {
 void Simulation::State::reserve_step() {
   constexpr int most_terms = 5;
   const CellGrid& grid = ordering.fluid_sources(fluid).grid;
-  reserve_reductions(context, larger(larger(fluid.count.room, wall.count.room), grid.cells()), most_terms);
+  reserve_reductions(context, fluid.count, most_terms);
+  reserve_reductions(context, larger(wall.count.room, grid.cells()), most_terms);
   surface_tension.reserve(fluid.count);
   scratch.resize(fluid.count);
   viscous.reserve(fluid.count, fluid_list.capacity(), row_cells());

@@ -353,7 +353,7 @@ ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> pre
                                       Span<const Quad> increment, const Chords& chords) {
   // Of many terms the roundings cancel for the most part.
   constexpr auto epsilon = static_cast<double>(std::numeric_limits<Real>::epsilon());
-  const Index n = c.fluid.count;
+  const Rows n = c.fluid.count;
   gap_.resize(n), shear_.resize(n), rounding_.resize(n), stress_.resize(n), spare_held_.resize(n);
   with_box(c, [&](const auto& loop) {
     launch(context_, "yield stresses", n,
@@ -374,7 +374,7 @@ ExactYield::Misfit ExactYield::update(const PairContext& c, Span<const Quad> pre
                                       stress_.span()});
   });
   held_.swap(spare_held_);
-  auto rms = [&](Buffer<double>& v) { return std::sqrt(sum(context_, v.span()) / n); };
+  auto rms = [&](Buffer<double>& v) { return std::sqrt(sum(context_, v.span(), n) / n); };
   return {rms(gap_), rms(shear_), epsilon / 8 * rms(rounding_), rms(stress_)};
 }
 

@@ -117,6 +117,34 @@ TEST_F(OrderingOf, CellStartsFrameEachCell) {
       EXPECT_EQ(grid_.cell_of(xyz(place_[static_cast<std::size_t>(i)])), cell);
 }
 
+// The rows of each plane of cells, the slowest axis of their number, and those that come later behind them.
+TEST_F(OrderingOf, PutsTheFluidInPlanesOfCells) {
+  sort(random_particles(1000, 0), {false, false, false});
+  const Planes planes = fluid_.count.planes;
+  const int slowest = grid_.order.axis[2];
+  ASSERT_EQ(planes.count, grid_.count[slowest]);
+  std::vector<Offset> first_chunk(static_cast<std::size_t>(planes.count) + 2), counted(1);
+  context_.copy_to_host(first_chunk.data(), planes.first_chunk, first_chunk.size() * sizeof(Offset));
+  EXPECT_EQ(first_chunk.back(), 1000);
+  std::vector<Index> rows(static_cast<std::size_t>(planes.count));
+  for (const Quad& place : place_)
+    ++rows[static_cast<std::size_t>(grid_.step_along(grid_.cell_of(xyz(place)), slowest))];
+  for (const Index n : rows) counted.push_back(counted.back() + (n + chunk_rows - 1) / chunk_rows);
+  first_chunk.pop_back();
+  EXPECT_EQ(first_chunk, counted);
+  EXPECT_GT(counted.back(), planes.count / 2) << "most planes are empty: nothing is tested";
+  Buffer<double> one(context_, "ones");
+  for (const Index more : {0, 1, 400}) {
+    fluid_.resize(1000 + more);
+    one.upload(std::vector<double>(static_cast<std::size_t>(1000 + more), 1.0));
+    EXPECT_EQ(sum(context_, one.span(), fluid_.count), 1000 + more);
+    EXPECT_EQ(fluid_.count.planes.count, planes.count);
+  }
+  fluid_.resize(300);
+  EXPECT_EQ(fluid_.count.planes.count, 0);
+  EXPECT_EQ(sum(context_, one.span(), fluid_.count), 300);
+}
+
 TEST_F(OrderingOf, MovesAllArraysTogether) {
   const auto particles = random_particles(500, 0);
   sort(particles, {false, false, false});
