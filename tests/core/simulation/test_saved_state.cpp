@@ -87,6 +87,19 @@ TEST(SavedState, AndWhatFollowsAreTheSameWithTwoThreads) {
   set_threads(before);
 }
 
+// Of particles that have moved on to other planes of cells, or left.
+TEST(SavedState, SumsAfterItAreThoseOfTheUnbrokenRun) {
+  Simulation unbroken(dam()), resumed(dam());
+  SavedState start = unbroken.save();
+  SavedState saved = saved_after(unbroken, 80);
+  EXPECT_LT(array_of(saved, "id").bytes.size(), array_of(start, "id").bytes.size())
+      << "nothing left: little is tested";
+  resumed.restore(saved);
+  const SavedState wanted = saved_after(unbroken, 5), found = saved_after(resumed, 5);
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    EXPECT_EQ(found[k].bytes, wanted[k].bytes) << wanted[k].name;
+}
+
 TEST(SavedState, HasNamesOfTheirOwnForAllArrays) {
   for (const SimulationSetup& setup : {with_everything(), exact()}) {
     Simulation simulation(setup);
