@@ -117,14 +117,18 @@ void Ordering::sort_keys(Index count) {
 void Ordering::reorder(const ParticleArrays& arrays, Index count) {
   arrays.each(Fate::sorted, [&](auto& values) {
     using T = typename std::decay_t<decltype(values)>::Element;
-    auto& spare = std::get<Buffer<T>>(spare_);
-    spare.resize(values.size());
-    launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
-    if (sort_needs_scratch)  // recorded launches know the array by its place
-      context_.copy_on_device(values.span().data, spare.span().data,
-                              static_cast<std::size_t>(count) * sizeof(T));
-    else
+    if constexpr (sort_needs_scratch) {  // recorded launches know the array by its place
+      const std::size_t bytes = sizeof(T) * static_cast<std::size_t>(count);
+      auto* spare = static_cast<T*>(
+          context_.workspace(sizeof(T) * static_cast<std::size_t>(larger(count, arrays.capacity()))));
+      launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), {spare, count}});
+      context_.copy_on_device(values.span().data, spare, bytes);
+    } else {
+      auto& spare = std::get<Buffer<T>>(spare_);
+      spare.resize(values.size());
+      launch(context_, "reorder", count, Gather<T>{order_.span(), values.span(), spare.span()});
       values.swap(spare);
+    }
   });
 }
 

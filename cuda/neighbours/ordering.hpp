@@ -65,7 +65,7 @@ class Ordering {
   Buffer<OutletBox> outlets_;
   Buffer<std::uint8_t> exit_;
   Buffer<double> flag_;
-  // Where reordered values go; on a CPU it takes the place of the array that they come from.
+  // On a CPU: where reordered values go; it takes the place of the array that they come from.
   std::tuple<Buffer<Vec3d>, Buffer<Quad>, Buffer<double>, Buffer<float>, Buffer<Index>, Buffer<std::uint8_t>>
       spare_;
 };

@@ -227,12 +227,12 @@ TEST_F(Neighbours, EntriesBeyondTheEndOfARowAreSources) {
 // more than eight bases hold, on a GPU.
 TEST_F(Neighbours, OfLinesThatAreTooLongForTheCodesAreAllListed) {
   Space s;
-  s.extent = {600 * s.reach, 3 * s.reach, 512 * s.reach};  // planes along x, lines along z
+  s.extent = {600 * s.reach, 3.1 * s.reach, 512 * s.reach};  // planes along x, lines along z
   Points points;
   Random random(18);
   for (int plane = 0; plane < 3; ++plane)
     for (int line = 0; line < 3; ++line) {
-      const double x = (1.5 + 0.6 * (plane - 1)) * s.reach, y = (1.5 + 0.6 * (line - 1)) * s.reach;
+      const double x = (1.5 + 0.6 * (plane - 1)) * s.reach, y = (1.55 + 0.6 * (line - 1)) * s.reach;
       const auto at = [&](double z) {
         points.push_back({static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z * s.reach)});
       };
