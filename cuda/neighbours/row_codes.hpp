@@ -27,7 +27,7 @@ HOST_DEVICE inline Offset whole_lanes(Index entries) {
 // where that does not do for all of it.
 using Code = std::uint16_t;
 inline constexpr int bases_per_row = 8, offset_bits = 13;
-inline constexpr unsigned offset_mask = (1u << offset_bits) - 1;
+inline constexpr Index offset_mask = (1 << offset_bits) - 1;
 
 // Where the bases of row i begin; each is a slice_width from the next.
 HOST_DEVICE inline Offset bases_of(Index i) {
@@ -50,13 +50,16 @@ struct ListRow {
   const Code* code;   // null: `plain` holds the entries
   const Index* base;  // of this row
   const Index* plain;
+  mutable int chosen = -1;  // the last base
+  mutable Index from = 0;   // and what it was
 
   // Of the k-th entry.
   HOST_DEVICE Offset at(Index k) const { return first + static_cast<Offset>(k) * slice_width; }
   HOST_DEVICE Index one(Index k) const {
     if (!code) return plain[at(k)];
-    const unsigned c = code[at(k)];
-    return base[(c >> offset_bits) * slice_width] + static_cast<Index>(c & offset_mask);
+    const int c = code[at(k)], which = c >> offset_bits;
+    if (which != chosen) chosen = which, from = base[which * slice_width];
+    return from + (c & offset_mask);
   }
   HOST_DEVICE Entries operator[](Index k) const { return {one(k)}; }
   HOST_DEVICE void foresee(Index) const {}
@@ -85,7 +88,8 @@ class RowFiller {
 
  private:
   HOST_DEVICE bool within(int base, Index j) const {
-    return static_cast<unsigned>(j) - static_cast<unsigned>(base_[base * slice_width]) <= offset_mask;
+    return static_cast<unsigned>(j) - static_cast<unsigned>(base_[base * slice_width]) <=
+           static_cast<unsigned>(offset_mask);
   }
   // Mostly the last one; -1 where another one is wanted than there are.
   HOST_DEVICE int choose(Index j) {

@@ -273,11 +273,12 @@ TEST_F(Neighbours, ListsCanBeBuiltAgainSmallerAndLarger) {
 TEST(ListView, RowsBeginBeyond32Bits) {
   constexpr Offset far = 10000000000;
   const std::vector<Offset> slice{0, far};
-  const std::vector<Index> length(2 * slice_width, 100);
+  constexpr Index width = slice_width;
+  const std::vector<Index> length(static_cast<std::size_t>(width) * 2, 100);
   const RowLayout list{host_span(slice), host_span(length)};
   EXPECT_EQ(list.row(slice_width), far);
   EXPECT_EQ(list.row(2 * slice_width - 1) + 99 * RowLayout::stride(),
-            far + slice_width - 1 + 99 * slice_width);
+            far + slice_width - 1 + static_cast<Offset>(99) * slice_width);
 }
 
 }  // namespace
