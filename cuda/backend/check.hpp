@@ -11,7 +11,7 @@ namespace slagflow {
 
 inline void check(cudaError_t status, const char* what) {
   if (status != cudaSuccess)
-    throw Error(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status) + " (" +
+    throw LocalError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status) + " (" +
                 cudaGetErrorName(status) + ")");
 }
 

@@ -36,7 +36,7 @@ void* Context::allocate(std::size_t bytes, const char* what) {
                      ? nullptr
                      : std::aligned_alloc(line, (bytes + beyond + line - 1) / line * line);
   if (!memory)
-    throw Error("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
+    throw LocalError("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
                 std::to_string(allocated_) + " are in use");
   allocated_ += bytes;
   ++counts_.allocations;

@@ -18,4 +18,10 @@ class InputError : public Error {
   using Error::Error;
 };
 
+// What only one of several processes has seen: memory or a device that failed.
+class LocalError : public Error {
+ public:
+  using Error::Error;
+};
+
 }  // namespace slagflow

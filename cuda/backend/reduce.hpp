@@ -6,6 +6,7 @@
 
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
+#include "ranks/halo.hpp"
 
 namespace slagflow {
 
@@ -189,18 +190,30 @@ void deal_out(const double* values, Offset count, double (&of_lane)[lanes]) {
 
 // What of_chunks() and of_planes() do on a GPU.
 inline double add_up_chunks(const Rows& n, const double* partial) {
-  if (n.planes.count == 0) {
-    double lanes[chunk_rows];
-    deal_out(partial, n.chunks(), lanes);
-    return add_up_chunk(lanes);
-  }
-  double all = 0, lanes[plane_lanes];
-  for (Index plane = 0; plane <= n.planes.count; ++plane) {
-    const Offset first = n.first_chunk(plane);
-    deal_out(partial + first, n.first_chunk(plane + 1) - first, lanes);
-    add_as_tree<plane_lanes>(lanes);
-    all += lanes[0];
-  }
+  double lanes[chunk_rows];
+  deal_out(partial, n.chunks(), lanes);
+  return add_up_chunk(lanes);
+}
+inline double add_up_plane(const Rows& n, Index plane, const double* partial) {
+  double lanes[plane_lanes];
+  const Offset first = n.first_chunk(plane);
+  deal_out(partial + first, n.first_chunk(plane + 1) - first, lanes);
+  add_as_tree<plane_lanes>(lanes);
+  return lanes[0];
+}
+
+// Of each term a sum a plane, and one of what is behind them. Those of all ranks are added in the order of the
+// planes, so that the sum does not depend on how they are dealt out.
+template <int count>
+Terms<count> add_up_planes(const Rows& n, const double* partial, Offset chunks) {
+  const Index sums = n.planes.count + 1;
+  std::vector<double> of_planes(static_cast<std::size_t>(sums) * count);
+  for (int k = 0; k < count; ++k)
+    for (Index plane = 0; plane < sums; ++plane)
+      of_planes[static_cast<std::size_t>(plane) * count + k] = add_up_plane(n, plane, partial + k * chunks);
+  if (n.halo) of_planes = gather_planes(*n.halo, of_planes, count);
+  Terms<count> all{};
+  for (std::size_t at = 0; at < of_planes.size(); ++at) all.value[at % count] += of_planes[at];
   return all;
 }
 
@@ -228,6 +241,7 @@ Terms<Body::terms> reduce(AddUp, Context& context, const Rows& n, const Body& bo
       static_cast<double*>(context.workspace(static_cast<std::size_t>(chunks) * sizeof(Terms<Body::terms>)));
 #pragma omp parallel for schedule(dynamic, grain) if (chunks > 2 * grain)
   for (Offset c = 0; c < chunks; ++c) add_up_rows(body, n.chunk(c), partial + c, chunks);
+  if (n.planes.count > 0) return add_up_planes<Body::terms>(n, partial, chunks);
   Terms<Body::terms> result;
   for (int k = 0; k < Body::terms; ++k) result.value[k] = add_up_chunks(n, partial + k * chunks);
   return result;
@@ -245,7 +259,7 @@ struct StoreTerms {
 };
 
 template <class Body>
-Terms<Body::terms> reduce(TakeLargest, Context& context, Index n, const Body& body) {
+Terms<Body::terms> reduce(TakeLargest, Context& context, const Rows& n, const Body& body) {
   constexpr auto count = static_cast<std::size_t>(Body::terms);
   auto* values =
       static_cast<double*>(context.workspace(static_cast<std::size_t>(n) * count * sizeof(double)));
@@ -253,6 +267,7 @@ Terms<Body::terms> reduce(TakeLargest, Context& context, Index n, const Body& bo
   Terms<Body::terms> result;
   for (std::size_t k = 0; k < count; ++k)
     result.value[k] = maximum(context, {values + k * static_cast<std::size_t>(n), n}, TakeLargest::start);
+  if (n.halo) ranks().take_largest(result.value, count);
   return result;
 }
 

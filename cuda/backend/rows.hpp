@@ -19,6 +19,8 @@ struct Planes {
   HOST_DEVICE Offset rows() const { return count > 0 ? first_chunk[count + 1] : 0; }
 };
 
+struct Halo;
+
 struct RowRange {
   Index first, end;
 };
@@ -28,12 +30,14 @@ struct Rows {
   Index room = 0;               // for how many there is memory, and how many a recording reckons with
   const Index* live = nullptr;  // the same as `now`, on the device; null: it never changes
   Planes planes;                // of the first rows; those behind them make one plane more
+  const Halo* halo = nullptr;   // for the host: of a part of the rows, whose others are with other ranks
 
   Rows() = default;
   HOST_DEVICE Rows(Index count) : now(count), room(count) {}
   HOST_DEVICE Rows(Index count, Index most, const Index* on_device, Planes in = {})
       : now(count), room(most), live(on_device), planes(in) {}
   HOST_DEVICE operator Index() const { return now; }
+  Index of_all() const;  // of all ranks (ranks/halo.hpp)
 
   // Where a body needs it that may have been recorded.
   HOST_DEVICE Index on_device() const {

@@ -257,6 +257,7 @@ void SurfaceTension::update(const PairContext& c, Span<const Index> wall_id) {
            Stress<decltype(box)>{c, smoothing, box, noise, wall_share_, strength_.span(), cosine_.span(),
                                  wall_id, normal_stress_.span(), shear_stress_.span(), wall_normal_.span(),
                                  wall_traction_.span()});
+    exchange(context_, n, normal_stress_, shear_stress_, wall_normal_, wall_traction_);
     launch(context_, "capillary acceleration", n,
            Divergence<decltype(box)>{c, smoothing, weight, box, view(), acceleration_.span()});
   };

@@ -10,6 +10,7 @@
 #include "backend/buffer.hpp"
 #include "backend/plane_table.hpp"
 #include "fluid/math.hpp"
+#include "ranks/halo.hpp"
 
 namespace slagflow {
 
@@ -50,10 +51,18 @@ class ParticleArrays {
   Context& context;
   Rows count;
   Index capacity() const { return capacity_; }
+  // Those behind them that belong to other ranks included.
+  Index local() const { return count.halo ? halo_.rows() : count.now; }
 
   // What is there stays, up to the new count. Beyond the capacity that grows by a quarter at least, so that
   // few of the times that particles come take memory.
-  void resize(Index n);
+  void resize(Index n) { resize(n, n); }
+  // They are a part of all from now on, with copies of others behind them.
+  void resize(const Halo& halo) {
+    halo_ = halo;
+    resize(halo.own, halo.rows());
+    count.halo = &halo_;
+  }
 
   // Sums go by these planes of all particles from now on. Those that come later are behind them; when some
   // go, the planes do.
@@ -87,7 +96,10 @@ class ParticleArrays {
     count = {n, capacity_, live_.span().data, in_planes_ > 0 ? planes_.view() : Planes{}};
   }
 
+  void resize(Index own, Index local);
+
   std::vector<Any> list_;
+  Halo halo_;
   Index capacity_ = 0;
   Buffer<Index> live_;
   PlaneTable planes_;
@@ -113,13 +125,13 @@ class ParticleArray : public Buffer<T> {
   bool used_ = false;
 };
 
-inline void ParticleArrays::resize(Index n) {
-  if (n > capacity_) capacity_ = larger(n, capacity_ + capacity_ / 4);
-  if (n != count || capacity_ != count.room) count_anew(n);
+inline void ParticleArrays::resize(Index own, Index local) {
+  if (local > capacity_) capacity_ = larger(local, capacity_ + capacity_ / 4);
+  if (own != count || capacity_ != count.room || count.halo) count_anew(own);
   each([&](auto& array) {
     if (array.absent()) return;
     array.reserve(capacity_);
-    array.resize(n);
+    array.resize(local);
   });
 }
 

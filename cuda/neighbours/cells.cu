@@ -31,6 +31,7 @@ CellGrid CellGrid::cover(Vec3d extent, const std::array<bool, 3>& periodic, doub
     const int axis = grid.order.axis[k];
     grid.lines[k] = {grid.count[axis], grid.stride[axis], inverse[axis], grid.periodic[axis]};
   }
+  grid.slab.own = grid.lines[2].count;
   grid.narrowest = width;
   grid.inverse_width = {inverse[0], inverse[1], inverse[2]};
   return grid;

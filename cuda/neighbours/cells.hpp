@@ -6,6 +6,7 @@
 #include "backend/buffer.hpp"
 #include "fluid/math.hpp"
 #include "fluid/params.hpp"
+#include "ranks/slabs.hpp"
 
 namespace slagflow {
 
@@ -29,7 +30,8 @@ struct Strides {
 };
 
 // Places outside of the grid belong to its border cells: two places are never fewer cells apart than their
-// distance asks for.
+// distance asks for. A rank among several has a slab of it: counts and widths are those of the whole grid,
+// numbers of cells those of the slab, whose cells follow each other as its planes do (slabs.hpp).
 struct CellGrid {
   int count[3] = {1, 1, 1};
   Vec3 inverse_width;    // [1/m]
@@ -37,6 +39,7 @@ struct CellGrid {
   bool periodic[3] = {false, false, false};
   AxisOrder order;
   Strides stride;
+  Slab slab;
 
   // Cells at least `width` wide over a domain of the given extent [m]; wider, where there were more than
   // `most` of them.
@@ -44,14 +47,31 @@ struct CellGrid {
   static CellGrid cover(Vec3d extent, const std::array<bool, 3>& periodic, double width,
                         double most = usual_most);
 
-  // Slabs of one cell's width across the slowest axis, and the cells of each, which follow each other.
-  Index planes() const { return lines[2].count; }
-  Index cells_of_plane() const { return lines[2].stride; }
+  // Planes of one cell's width across the slowest axis, and the cells of each, which follow each other.
+  Index planes() const { return slab.own; }
+  HOST_DEVICE Index cells_of_plane() const { return lines[2].stride; }
 
-  HOST_DEVICE Index cells() const { return count[0] * count[1] * count[2]; }
+  HOST_DEVICE Index cells() const { return slab.planes() * lines[2].stride; }
+  HOST_DEVICE Index own_cells() const { return slab.own * lines[2].stride; }
+  // In the slab with its halo.
   HOST_DEVICE Index cell_of(Vec3 place) const {
-    return along(lines[2], place[order.axis[2]]) * lines[2].stride +
-           along(lines[1], place[order.axis[1]]) * lines[1].stride + along(lines[0], place[order.axis[0]]);
+    return local_plane(plane_at(place)) * lines[2].stride + in_plane(place);
+  }
+  // In the whole grid.
+  HOST_DEVICE int plane_at(Vec3 place) const { return along(lines[2], place[order.axis[2]]); }
+  // As the slab numbers the plane, -1: it is neither in it nor in its halo.
+  HOST_DEVICE int local_plane(int plane) const {
+    int up = plane - slab.first;
+    if (up < 0) up += lines[2].count;
+    if (up < slab.own + slab.above) return up;
+    const int down = lines[2].count - up;
+    return down <= slab.below ? slab.planes() - down : -1;
+  }
+  // In the whole grid, of a cell of the slab.
+  HOST_DEVICE int plane_of(Index cell) const {
+    const int local = cell / lines[2].stride;
+    const int plane = slab.first + local - (local < slab.own + slab.above ? 0 : slab.planes());
+    return plane < 0 ? plane + lines[2].count : (plane >= lines[2].count ? plane - lines[2].count : plane);
   }
 
   // Calls visit(first_cell, last_cell) for runs of cells that follow each other in memory and together hold
@@ -61,7 +81,9 @@ struct CellGrid {
     const Real wide = reach * Real(1.001);  // rounding must not lose a place
     const Vec3 at{place[order.axis[0]], place[order.axis[1]], place[order.axis[2]]};
     const Around rows = around(lines[1], at.y, wide), planes = around(lines[2], at.z, wide);
-    for_line(lines[2], planes, [&](int k, int plane) {
+    for_line(lines[2], planes, [&](int k, int global) {
+      const int plane = local_plane(global);
+      if (plane < 0) return;
       const Real beyond_plane = square(wide) - square(gap(lines[2], k, at.z, planes));
       for_line(lines[1], rows, [&](int j, int row) {
         const Real beyond = beyond_plane - square(gap(lines[1], j, at.y, rows));
@@ -77,26 +99,36 @@ struct CellGrid {
   template <class Visit>
   HOST_DEVICE void for_line_around(Index cell, int speed, int range, Visit visit) const {
     const Line& line = lines[speed];
-    const int c = cell / line.stride % line.count;
-    const Around all = around(line, c, range);
-    for (int k = all.first; k <= all.last; ++k) visit(cell + (wrapped(line, k) - c) * line.stride);
+    const int local = speed == 2 ? cell / line.stride : cell / line.stride % line.count;
+    const Around all = around(line, speed == 2 ? plane_of(cell) : local, range);
+    for (int k = all.first; k <= all.last; ++k) {
+      const int other = speed == 2 ? local_plane(wrapped(line, k)) : wrapped(line, k);
+      if (other >= 0) visit(cell + (other - local) * line.stride);
+    }
   }
 
   // Calls visit(first_cell, last_cell) for the cells up to `range` away from `cell` along each axis, itself
   // included, each once, in runs that follow each other in memory, in ascending order.
   template <class Visit>
   HOST_DEVICE void for_runs_around(Index cell, int range, Visit visit) const {
-    const int c[3] = {cell % lines[0].count, cell / lines[1].stride % lines[1].count, cell / lines[2].stride};
+    const int c[3] = {cell % lines[0].count, cell / lines[1].stride % lines[1].count, plane_of(cell)};
     const Around run = around(lines[0], c[0], range), rows = around(lines[1], c[1], range);
-    for_line(lines[2], around(lines[2], c[2], range), [&](int, int plane) {
+    for_line(lines[2], around(lines[2], c[2], range), [&](int, int global) {
+      const int plane = local_plane(global);
+      if (plane < 0) return;
       for_line(lines[1], rows,
                [&](int, int row) { visit_run(plane * lines[2].stride + row * lines[1].stride, run, visit); });
     });
   }
 
-  HOST_DEVICE int step_along(Index cell, int axis) const { return cell / stride[axis] % count[axis]; }
+  HOST_DEVICE int step_along(Index cell, int axis) const {
+    return axis == order.axis[2] ? plane_of(cell) : cell / stride[axis] % count[axis];
+  }
 
  private:
+  HOST_DEVICE Index in_plane(Vec3 place) const {
+    return along(lines[1], place[order.axis[1]]) * lines[1].stride + along(lines[0], place[order.axis[0]]);
+  }
   // The cells along an axis.
   struct Line {
     int count = 1;

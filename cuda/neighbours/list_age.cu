@@ -140,6 +140,7 @@ void ListAge::begin(const SourceView& fluid, const SourceView& walls) {
 }
 
 void ListAge::restore(const SourceView& fluid, const SourceView& walls) {
+  own_cells_ = fluid.grid.own_cells();
   const auto keep = [&](Buffer<Quad>& before, Span<const Quad> places) {
     before.resize(places.size);
     context_.copy_on_device(before.span().data, places.data,
@@ -174,7 +175,9 @@ void ListAge::launch(const Particles& fluid, const Particles& walls, const ListG
                              static_cast<Real>(gate.reach.fluid_skin),
                              static_cast<Real>(gate.reach.wall_skin),
                              renewed};
-  launch_reduction<TakeLargest>(context_, "wear of lists", cells, IfOpen<WearOfFluid>{of_fluid, gate},
+  Rows own_cells(own_cells_);
+  own_cells.halo = fluid.halo;
+  launch_reduction<TakeLargest>(context_, "wear of lists", own_cells, IfOpen<WearOfFluid>{of_fluid, gate},
                                 KeepWorn{record, renewed});
   if (!renewed) return;
   const WearOfWalls of_walls{{grid, walls.beside, wall_wear_.span(), walls_worn_.span()},
@@ -182,7 +185,7 @@ void ListAge::launch(const Particles& fluid, const Particles& walls, const ListG
                              moved,
                              walls_moved,
                              static_cast<Real>(gate.reach.wall_skin)};
-  slagflow::launch(context_, "wear of lists of walls", cells, IfOpen<WearOfWalls>{of_walls, gate});
+  slagflow::launch(context_, "wear of lists of walls", own_cells_, IfOpen<WearOfWalls>{of_walls, gate});
 }
 
 void ListAge::launch_look(const Particles& fluid, const Particles& walls, const ListReach& reach,

@@ -26,6 +26,7 @@ class ListAge {
     SourceView now;                   // as they were sorted
     double largest_displacement = 0;  // of any of them since [m]; 0: all are at rest
     Span<const std::uint8_t> beside;  // cells that may have some of the other kind near; each cell
+    const Halo* halo = nullptr;       // where other ranks have the rest of them
   };
 
   // All lists have just been built.
@@ -41,13 +42,14 @@ class ListAge {
     return {record, opened_.span().data, reach};
   }
 
-  Span<const std::uint8_t> worn() const { return worn_.span(); }              // cells of the fluid
-  Span<const std::uint8_t> walls_worn() const { return walls_worn_.span(); }  // cells of walls
+  // Of the rank's own cells, with fluid and with walls.
+  Span<const std::uint8_t> worn() const { return {worn_.span().data, own_cells_}; }
+  Span<const std::uint8_t> walls_worn() const { return {walls_worn_.span().data, own_cells_}; }
   bool opened() const;
 
   template <class Visitor>
   void save(Visitor& v) {
-    v.as_many("list_opened", opened_), v.as_many("list_wear", wear_), v.as_many("wall_list_wear", wall_wear_);
+    v.as_many("list_opened", opened_), v.of_cells("list_wear", wear_), v.of_cells("wall_list_wear", wall_wear_);
   }
   // After save(): the places of the last look, those of now unless there was none.
   void restore(const SourceView& fluid, const SourceView& walls);
@@ -62,6 +64,7 @@ class ListAge {
   Buffer<Quad> displacement_, wall_displacement_;
   Buffer<Real> wear_, wall_wear_;  // of each cell, in skins
   Buffer<std::uint8_t> worn_, walls_worn_;
+  Index own_cells_ = 0;
   Buffer<Index> opened_;  // one: whether there was a look since begin()
 };
 

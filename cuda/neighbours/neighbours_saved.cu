@@ -125,7 +125,7 @@ struct CellsOfTargets {
 
 void NeighbourList::find_target_cells(const ListedParticles& p) {
   target_cell_.resize(p.targets.size);
-  launch(context_, "cells of targets", p.sources.grid.cells(),
+  launch(context_, "cells of targets", p.sources.grid.own_cells(),
          CellsOfTargets{p.target_start, target_cell_.span()});
 }
 
@@ -168,9 +168,10 @@ bool NeighbourList::recall_in(const Box& box, const ListedParticles& p, const Do
   Search<Box> near = search(box, p);
   near.reach = doubtful.to;
   Buffer<Offset> start(context_, "bits of lists");
-  if (measure_bits(near, doubtful.from, start) != static_cast<Offset>(saved.size())) return false;
+  const PartOfRows part(measure_bits(near, doubtful.from, start));
+  if (part.all != static_cast<Offset>(saved.size())) return false;
   Buffer<std::uint8_t> bits(context_, "bits of lists");
-  bits.upload(saved);
+  bits.upload({saved.begin() + part.first, saved.begin() + part.first + part.own});
   if constexpr (slice_width == 1) {
     Buffer<Offset> entries(context_, "entries of rows", n);
     launch(context_, "lengths of rows", n,
@@ -187,7 +188,7 @@ bool NeighbourList::recall_in(const Box& box, const ListedParticles& p, const Do
                           KeepMisfits{used_.span().data + 1});
   Offset misfits = 0;
   context_.copy_to_host(&misfits, used_.span().data + 1, sizeof misfits);
-  return misfits == 0;
+  return ranks().added(misfits) == 0;
 }
 
 bool NeighbourList::recall(const ListedParticles& p, const Doubtful& doubtful,

@@ -2,18 +2,16 @@
 
 #include "backend/launch.hpp"
 #include "neighbours/ordering.hpp"
+#include "neighbours/cell_keys.hpp"
 
 namespace slagflow {
 
 namespace {
 
 constexpr std::uint8_t inside = 255;
-constexpr std::uint64_t departed_key = std::uint64_t(1) << 63;  // sorts behind every cell
-
-// Sort key: cell in the upper, id in the lower 32 bits. Wraps periodic axes and finds the face or outlet
-// through which a particle left.
+// Wraps periodic axes and finds the face or outlet through which a particle left.
 struct FluidKey {
-  CellGrid grid;
+  CellKey of_cell;
   Vec3d extent;
   bool periodic[3];
   Span<const OutletBox> outlets;
@@ -41,22 +39,8 @@ struct FluidKey {
     place[i] = rounded;
     exit[i] = face;
     order[i] = i;
-    const auto cell = static_cast<std::uint64_t>(grid.cell_of(xyz(rounded)));
-    key[i] = face == inside ? cell << 32 | static_cast<std::uint32_t>(id[i])
-                            : departed_key | static_cast<std::uint32_t>(id[i]);
-  }
-};
-
-struct PlaceKey {
-  CellGrid grid;
-  Span<const Quad> place;
-  Span<const Index> id;
-  Span<std::uint64_t> key;
-  Span<Index> order;
-  HOST_DEVICE void operator()(Index i) const {
-    order[i] = i;
     key[i] =
-        static_cast<std::uint64_t>(grid.cell_of(xyz(place[i]))) << 32 | static_cast<std::uint32_t>(id[i]);
+        face == inside ? of_cell(xyz(rounded), id[i]) : departed_key | static_cast<std::uint32_t>(id[i]);
   }
 };
 
@@ -95,6 +79,7 @@ Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic
     : context_(c),
       extent_(extent),
       grid_(grid),
+      slabs_(grid.planes(), grid.periodic[grid.order.axis[2]], ranks().size()),
       periodic_(periodic),
       fluid_cells_(c),
       wall_cells_(c),
@@ -103,11 +88,14 @@ Ordering::Ordering(Context& c, Vec3d extent, const std::array<bool, 3>& periodic
       order_(c, "sort order"),
       spare_order_(c, "sort order"),
       outlets_(c, "outlets"),
+      cuts_(c, "cuts between ranks"),
       exit_(c, "exits"),
       flag_(c, "exit flags"),
       spare_(Buffer<Vec3d>(c, "sort spare"), Buffer<Quad>(c, "sort spare"), Buffer<double>(c, "sort spare"),
              Buffer<float>(c, "sort spare"), Buffer<Index>(c, "sort spare"),
-             Buffer<std::uint8_t>(c, "sort spare")) {}
+             Buffer<std::uint8_t>(c, "sort spare")) {
+  if (ranks().several()) take_cuts();
+}
 
 void Ordering::sort_keys(Index count) {
   if (sort_needs_scratch) spare_key_.resize(count), spare_order_.resize(count);
@@ -132,29 +120,32 @@ void Ordering::reorder(const ParticleArrays& arrays, Index count) {
   });
 }
 
-Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed) {
+Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed, bool dealt) {
   auto count = [&](int face, int kind) {
     launch(context_, "exits", fluid.count,
            FlagDeparted{exit_.span(), fluid.fluid.span(), face, kind, flag_.span()});
     return static_cast<std::int64_t>(sum(context_, flag_.span()));
   };
-  const std::int64_t all = count(-1, -1);
+  auto of_all = [&](std::int64_t own) { return dealt ? ranks().added(own) : own; };
+  const std::int64_t own = count(-1, -1), all = of_all(own);
   if (all == 0) return fluid.count;
   for (std::size_t kind = 0; kind < departed.size(); ++kind) {
     for (int face = 0; face < faces; ++face)
-      departed[kind][static_cast<std::size_t>(face)] += count(face, static_cast<int>(kind));
+      departed[kind][static_cast<std::size_t>(face)] += of_all(count(face, static_cast<int>(kind)));
     for (Offset outlet = 0; outlet < outlets_.size(); ++outlet)
       removed[static_cast<std::size_t>(outlet) * departed.size() + kind] +=
-          count(faces + static_cast<int>(outlet), static_cast<int>(kind));
+          of_all(count(faces + static_cast<int>(outlet), static_cast<int>(kind)));
   }
-  return fluid.count - static_cast<Index>(all);
+  return fluid.count - static_cast<Index>(own);
 }
 
 void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
+  const bool dealt = f.count.halo != nullptr;
   const Index n = f.count;
+  f.resize(n);
   key_.resize(n), order_.resize(n), exit_.resize(n), flag_.resize(n);
   launch(context_, "cell keys", n,
-         FluidKey{grid_,
+         FluidKey{{grid_, cuts_.span()},
                   extent_,
                   {periodic_[0], periodic_[1], periodic_[2]},
                   outlets_.span(),
@@ -164,36 +155,35 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
                   key_.span(),
                   order_.span(),
                   exit_.span()});
-  const Index left = drop(f, departed);
+  const Index left = drop(f, departed, dealt);
   sort_keys(n);
   reorder(f, n);
-  f.resize(left);
-  find_cells(f, left);
+  deal_out(f, fluid_cells_, left, dealt);
+  put_in_planes(f);
 }
 
-// By the sorted keys. Sums over the fluid go by planes of cells.
-void Ordering::find_cells(FluidArrays& f, Index count) {
-  fluid_cells_.find(context_, grid_, key_.span(), count);
+// Sums over the fluid go by planes of cells.
+void Ordering::put_in_planes(FluidArrays& f) {
   f.put_in_planes({fluid_cells_.start.span(), grid_.cells_of_plane(), grid_.planes()});
 }
 
 void Ordering::find_cells(FluidArrays& f) {
-  key_.resize(f.count), order_.resize(f.count);
-  launch(context_, "cell keys", f.count,
-         PlaceKey{grid_, f.place.span(), f.id.span(), key_.span(), order_.span()});
-  find_cells(f, f.count);
+  find_cells(f, fluid_cells_);
+  put_in_planes(f);
 }
 
 void Ordering::sort(WallArrays& w) {
+  const bool dealt = w.count.halo != nullptr;
   const Index n = w.count;
+  w.resize(n);
   key_.resize(n), order_.resize(n), flag_.resize(n);
   launch(context_, "wall cell keys", n,
-         WallKey{{grid_, w.place.span(), w.id.span(), key_.span(), order_.span()}, flag_.span()});
+         WallKey{{{grid_, cuts_.span()}, w.place.span(), w.id.span(), key_.span(), order_.span()}, flag_.span()});
   const auto left = n - static_cast<Index>(sum(context_, flag_.span()));
   sort_keys(n);
   reorder(w, n);
-  w.resize(left);
-  wall_cells_.find(context_, grid_, key_.span(), left);
+  deal_out(w, wall_cells_, left, dealt);
+  w.put_in_planes({wall_cells_.start.span(), grid_.cells_of_plane(), grid_.planes()});
 }
 
 }  // namespace slagflow

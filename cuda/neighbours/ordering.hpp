@@ -8,6 +8,7 @@
 #include "backend/primitives.hpp"
 #include "fluid/openings.hpp"
 #include "fluid/particles.hpp"
+#include "ranks/migration.hpp"
 #include "neighbours/cells.hpp"
 
 namespace slagflow {
@@ -40,6 +41,21 @@ class Ordering {
   // Finds the cells of particles that are in order already.
   void find_cells(FluidArrays&);
 
+  // With several ranks: deals all particles of the start, with these places in the domain, out by their number in
+  // each plane; sort() then keeps those of its slab.
+  void deal_out(const std::vector<Vec3d>& fluid, const std::vector<Vec3d>& walls);
+  // The same of fluid that is in order already, by its places then: how much of it is this rank's, and at the ends of
+  // its slab.
+  struct Dealt {
+    Index own = 0;
+    Borders borders;
+  };
+  Dealt deal_out(const std::vector<Quad>& places);
+  // Before the sorts of a build: moves the cuts between the ranks to where each has as many particles. Whether any
+  // has moved.
+  bool balance();
+  const Slabs& slabs() const { return slabs_; }
+
   SourceView fluid_sources(const FluidArrays& f) const {
     return {grid_, fluid_cells_.start.span(), f.place.span()};
   }
@@ -52,17 +68,27 @@ class Ordering {
   void sort_keys(Index count);
   // All arrays as order_ says, of `count` particles.
   void reorder(const ParticleArrays&, Index count);
-  Index drop(const FluidArrays&, DepartureCounts& departed);
-  void find_cells(FluidArrays&, Index count);
+  Index drop(const FluidArrays&, DepartureCounts& departed, bool dealt);
+  void put_in_planes(FluidArrays&);
+  // Of `count` sorted rows those of other ranks go there, at the end; or, at the start, are there already. Finds
+  // the cells of those that are left.
+  template <class Arrays>
+  void deal_out(Arrays&, CellRanges&, Index count, bool dealt);
+  template <class Arrays>
+  void find_cells(Arrays&, CellRanges&);
+  std::vector<Index> leaving_to(Index first, Index count);
+  void take_cuts();
 
   Context& context_;
   Vec3d extent_;
   CellGrid grid_;
+  Slabs slabs_;
   std::array<bool, 3> periodic_;
   CellRanges fluid_cells_, wall_cells_;
   Buffer<std::uint64_t> key_, spare_key_;
   Buffer<Index> order_, spare_order_;
   Buffer<OutletBox> outlets_;
+  Buffer<int> cuts_;  // empty: there is one rank
   Buffer<std::uint8_t> exit_;
   Buffer<double> flag_;
   // On a CPU: where reordered values go; it takes the place of the array that they come from.

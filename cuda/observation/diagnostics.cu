@@ -180,7 +180,7 @@ FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& fro
   state.passed = static_cast<std::int64_t>(count);
   if (count > 0)
     for (int k = 0; k < 3; ++k) state.mean_position[k] = beyond(k) / count + origin[k];
-  if (f.count > 0)
+  if (f.count.of_all() > 0)
     state.extreme =
         front.sign * largest(c, scratch, f.count, Lead{f.position.span(), front.axis, front.sign}) +
         origin[front.axis];
@@ -202,7 +202,7 @@ Totals measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstant
   t.fronts.resize(setup.fronts.size());
   for (std::size_t k = 0; k < setup.fronts.size(); ++k)
     t.fronts[k] = measure_front(c, f, setup.fronts[k], origin, scratch);
-  if (n == 0) return t;
+  if (n.of_all() == 0) return t;
   t.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
   t.potential_energy =
       total(c, scratch, n,
@@ -253,8 +253,9 @@ Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstant
 }
 
 double mean_neighbours(Context& context, const PairContext& c, DiagnosticScratch& scratch) {
-  if (c.fluid.count == 0) return 0;
-  return total(context, scratch, c.fluid.count, CountWithinSupport{c}) / c.fluid.count;
+  const Index all = c.fluid.count.of_all();
+  if (all == 0) return 0;
+  return total(context, scratch, c.fluid.count, CountWithinSupport{c}) / all;
 }
 
 }  // namespace slagflow

@@ -256,6 +256,7 @@ std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& sourc
                             f.shear_rate.span(), 1 / source.smoothing.support, point.span(), result.span()});
   std::vector<Sample> samples;
   result.download(samples);
+  join_at_owners(source, points, samples);
   std::vector<ProfilePoint> profile;
   for (int k = 0; k < line.points; ++k)
     profile.push_back(

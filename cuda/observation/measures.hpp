@@ -77,4 +77,16 @@ std::vector<ProfilePoint> measure_profile(Context&, const ProfileSource&, const 
 // What a profile tells of the surface.
 LevelState level_of(const std::vector<ProfilePoint>&);
 
+// With several ranks: of what was found at these points that of the rank which has the point's plane, on all.
+template <class T>
+void join_at_owners(const ProfileSource& source, const std::vector<Quad>& points, std::vector<T>& found) {
+  if (!source.fluid.count.halo) return;
+  const CellGrid& grid = source.cells.grid;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const int plane = grid.local_plane(grid.plane_at(xyz(points[k])));
+    if (plane < 0 || plane >= grid.slab.own) found[k] = {};
+  }
+  ranks().join(found.data(), found.size() * sizeof(T));
+}
+
 }  // namespace slagflow

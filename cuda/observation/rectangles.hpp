@@ -27,7 +27,7 @@ class FluxCounters {
   template <class Visitor>
   void save(Visitor& v) {
     if (!any()) return;
-    v.as_many("rectangles", counts_), v.number(way_), v.array("rectangles_before", before_);
+    v.as_many("rectangles", counts_), v.number(way_), v.of_fluid("rectangles_before", before_);
   }
 
  private:

@@ -95,7 +95,7 @@ void Residence::enter(Index first_id, double now) {
 
 void Residence::leave(const FluidArrays& f, Span<const OutletBox> outlets, double now,
                       DiagnosticScratch& scratch) {
-  if (!any() || f.count == 0) return;
+  if (!any() || f.count.of_all() == 0) return;
   const auto n = static_cast<Offset>(f.count);
   leaving_.resize(n), rank_.resize(n + 1);
   launch(context_, "leaving particles", f.count, FindLeaving{f.position.span(), outlets, leaving_.span()});
@@ -121,7 +121,7 @@ std::vector<ResidenceState> Residence::states(const FluidArrays& f, double now, 
   first_on_device_.upload(first_), time_on_device_.upload(time_);
   const double inside = total(context_, scratch, f.count,
                               Age{f.id.span(), first_on_device_.span(), time_on_device_.span(), now}) /
-                        static_cast<double>(f.count);
+                        static_cast<double>(f.count.of_all());
   std::vector<ResidenceState> states;
   for (const std::size_t outlet : outlets_) {
     std::vector<float> ages;

@@ -130,8 +130,8 @@ SheetThickness::SheetThickness(Context& c)
     : context_(c), seen_(c, "thickness seen"), thickness_(c, "sheet thickness") {}
 
 const Buffer<Real>& SheetThickness::measure(const PairContext& c) {
-  const Index n = c.fluid.count;
-  seen_.resize(n), thickness_.resize(n);
+  const Rows n = c.fluid.count;
+  seen_.resize(c.fluid.place.size), thickness_.resize(n);
   // In the middle of three layers of a lattice a particle sees 63 of the 81 that it sees inside; their volume
   // asks for 73.6.
   constexpr double told = 4.5, share = 0.93, pi = 3.14159265358979;
@@ -141,6 +141,7 @@ const Buffer<Real>& SheetThickness::measure(const PairContext& c) {
   auto sweep = [&](auto box) {
     using Box = decltype(box);
     launch(context_, "thickness seen", n, SeenThickness<Box>{{c, box}, most, crowd, seen_.span()});
+    exchange(context_, n, seen_);
     launch(context_, "sheet thickness", n, LargestSeen<Box>{{c, box}, most, seen_.span(), thickness_.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});

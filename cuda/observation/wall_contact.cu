@@ -118,7 +118,7 @@ std::vector<ContactState> WallContact::states(const PairContext& c, const ListVi
 
 ContactState WallContact::state_of(const PairContext& c, std::uint8_t body) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const Index n = c.wall.count;
+  const Rows n = c.wall.count;
   const OfBody all{site_.span(), area_.span(), body_.span(), c.wall, body};
   const Terms<3> areas = reduce_terms<AddUp>(context_, scratch_, n, AreaTerms{all});
   ContactState state;

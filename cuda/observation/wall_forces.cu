@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <cstring>
+#include <iterator>
+
 #include "fluid/diagnostic_sums.hpp"
 #include "observation/wall_forces.hpp"
 #include "pressure/pair_pressure.hpp"
@@ -96,7 +100,7 @@ struct ImpulseTerm {
 }  // namespace
 
 WallForces::WallForces(Context& c)
-    : context_(c), impulse_(c, "wall impulses"), body_(c, "walls of wall impulses"), scratch_(c) {}
+    : context_(c), impulse_(c, "wall impulses"), all_(c, "wall impulses"), body_(c, "walls of wall impulses"), scratch_(c) {}
 
 void WallForces::start(const std::vector<std::uint8_t>& body) {
   impulse_.upload(std::vector<Impulse>(body.size()));
@@ -124,11 +128,48 @@ void WallForces::add(const PairContext& c, const ListView& list, const WallArray
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
 }
 
+void WallForces::follow(const std::vector<Index>& before, const std::vector<Index>& now) {
+  std::vector<Index> old = before, own = now, gone;
+  std::sort(old.begin(), old.end()), std::sort(own.begin(), own.end());
+  std::set_difference(old.begin(), old.end(), own.begin(), own.end(), std::back_inserter(gone));
+  struct Passed {
+    Index id;
+    Impulse impulse;
+  };
+  std::vector<Impulse> impulse;
+  impulse_.download(impulse);
+  std::vector<Passed> going;
+  for (const Index id : gone) going.push_back({id, impulse[static_cast<std::size_t>(id)]});
+  const std::vector<std::byte> bytes = ranks().gathered(going.data(), going.size() * sizeof(Passed));
+  std::vector<Passed> all(bytes.size() / sizeof(Passed));
+  if (!all.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+  // What no rank has any more, as a wall has vanished, stays with the first.
+  for (const Index id : gone) impulse[static_cast<std::size_t>(id)] = {};
+  std::vector<std::uint8_t> taken;
+  for (const Passed& p : all) taken.push_back(std::binary_search(own.begin(), own.end(), p.id) ? 1 : 0);
+  std::vector<std::uint8_t> anywhere = taken;
+  ranks().join(anywhere.data(), anywhere.size());
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (taken[k] != 0 || (anywhere[k] == 0 && ranks().first()))
+      impulse[static_cast<std::size_t>(all[k].id)] = all[k].impulse;
+  impulse_.upload(impulse);
+}
+
+Span<const WallForces::Impulse> WallForces::of_all() {
+  if (!ranks().several()) return impulse_.span();
+  std::vector<Impulse> impulse;
+  impulse_.download(impulse);
+  ranks().join(impulse.data(), impulse.size() * sizeof(Impulse));
+  all_.upload(impulse);
+  return all_.span();
+}
+
 WallLoad WallForces::load(std::size_t body) {
-  const auto n = static_cast<Index>(impulse_.size());
+  const Span<const Impulse> impulse = of_all();
+  const auto n = static_cast<Index>(impulse.size);
   const auto total = [&](int term) {
     return slagflow::total(context_, scratch_, n,
-                           ImpulseTerm{impulse_.span(), body_.span(), static_cast<int>(body), term});
+                           ImpulseTerm{impulse, body_.span(), static_cast<int>(body), term});
   };
   WallLoad load;
   Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque, &load.viscous_torque};
@@ -138,9 +179,10 @@ WallLoad WallForces::load(std::size_t body) {
 }
 
 WallWork WallForces::work() {
+  const Span<const Impulse> impulse = of_all();
   const auto total = [&](int term) {
-    return slagflow::total(context_, scratch_, static_cast<Index>(impulse_.size()),
-                           ImpulseTerm{impulse_.span(), body_.span(), -1, term});
+    return slagflow::total(context_, scratch_, static_cast<Index>(impulse.size),
+                           ImpulseTerm{impulse, body_.span(), -1, term});
   };
   return {total(ImpulseTerm::viscous_work_term), total(ImpulseTerm::elastic_work_term)};
 }

@@ -36,6 +36,10 @@ class WallForces {
   // the particles move.
   void add(const PairContext&, const ListView& list, const WallArrays&, const WallForceStep&);
 
+  // With several ranks the impulse of a wall particle is with the one that has it, in the rows `now`; those that went,
+  // of the ids `before`, go along. A call of all ranks.
+  void follow(const std::vector<Index>& before, const std::vector<Index>& now);
+
   // Since the start; torques about the lower corner of the domain.
   WallLoad load(std::size_t body);
   WallWork work();  // of all walls
@@ -49,12 +53,15 @@ class WallForces {
   };
   template <class Visitor>
   void save(Visitor& v) {
-    v.as_many("wall_impulse", impulse_);
+    v.of_one_rank_each("wall_impulse", impulse_);
   }
 
  private:
+  Span<const Impulse> of_all();
+
   Context& context_;
   Buffer<Impulse> impulse_;
+  Buffer<Impulse> all_;  // of all ranks
   Buffer<std::uint8_t> body_;
   DiagnosticScratch scratch_;
 };

@@ -39,7 +39,7 @@ Watch::Watch(Context& context, const SimulationSetup& setup)
 }
 
 void Watch::begin(const FluidArrays& fluid, Span<const FluidConstants> fluids, DiagnosticScratch& scratch) {
-  if (fluid.count == 0) return;
+  if (fluid.count.of_all() == 0) return;
   const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
   seen.lowest_energy = seen.recent_energy = vitals.kinetic_energy + vitals.stored_energy;
 }
@@ -62,7 +62,7 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
          "the time step fell to " + number(now.time_step) + " s; limits.min_time_step_ratio allows " +
              number(least_step) + " s",
          "a larger sound_speed or a smaller spacing");
-  if (fluid.count == 0) return;
+  if (fluid.count.of_all() == 0) return;
   const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
   if (!(vitals.max_speed <= max_speed_))
     fail_at_worst(
@@ -158,10 +158,9 @@ void Watch::fail(const WatchMoment& now, const std::string& what, const std::str
 
 void Watch::fail_at_worst(const FluidArrays& fluid, const WatchMoment& now, const std::string& what,
                           double (*badness)(Quad motion), const std::string& advice) const {
-  std::vector<Vec3d> position;
-  std::vector<Quad> motion;
-  std::vector<Index> id;
-  fluid.position.download(position), fluid.motion.download(motion), fluid.id.download(id);
+  const auto position = rows_of_all(fluid.position, fluid.count, On::all_ranks);
+  const auto motion = rows_of_all(fluid.motion, fluid.count, On::all_ranks);
+  const auto id = rows_of_all(fluid.id, fluid.count, On::all_ranks);
   std::size_t worst = 0;
   for (std::size_t i = 0; i < id.size(); ++i) {
     const double b = badness(motion[i]);

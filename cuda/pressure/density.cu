@@ -261,6 +261,8 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
          StateFromDensity{c.fluids, c.flow, fluid.fluid.span(), scratch.span(), fluid.shear_rate.span(),
                           fluid.packing.span(), fluid.place.span(), fluid.motion.span(), fluid.state.span(),
                           fluid.melt.span(), fluid.pressure.span(), fluid.hollow.span()});
+  exchange(context, fluid.count, fluid.place, fluid.motion, fluid.state, fluid.pressure, fluid.contact,
+           fluid.hollow);
 }
 
 }  // namespace slagflow

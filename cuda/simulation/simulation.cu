@@ -101,6 +101,7 @@ Simulation::State::State(const SimulationSetup& s)
   departed.resize(s.fluids.size());
   ordering.set_outlets(outlet_boxes(s), s.fluids.size());
   time = setup.start_time, last_dt = setup.last_step;
+  deal_out();
   upload_fluid();
   dt = full_dt = longest_step();
   upload_walls();
@@ -112,6 +113,17 @@ Simulation::State::State(const SimulationSetup& s)
   extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   update_density(context, pairs(), fluid, scratch, 0);  // viscosity and shear rate of the start
   watch.begin(fluid, fluids.span(), diagnostics);
+}
+
+// The ranks begin with all particles each, and keep theirs at the first sort.
+void Simulation::State::deal_out() {
+  if (!ranks().several()) return;
+  const auto places = [&](const std::vector<Vec3d>& positions) {
+    std::vector<Vec3d> result;
+    for (const Vec3d& x : positions) result.push_back(x - setup.domain.lower);
+    return result;
+  };
+  ordering.deal_out(places(setup.particles.position), places(setup.walls.position));
 }
 
 void Simulation::State::upload_fluid() {
@@ -159,6 +171,18 @@ void Simulation::State::upload_walls() {
   ordering.sort(wall);
 }
 
+void Simulation::State::sort_walls() {
+  const bool follow = wall.count.halo && knows_wall_forces();
+  std::vector<Index> before, now;
+  const auto own_ids = [&](std::vector<Index>& ids) {
+    if (follow) wall.id.download(ids), ids.resize(static_cast<std::size_t>(wall.count.now));
+  };
+  own_ids(before);
+  ordering.sort(wall);
+  own_ids(now);
+  if (follow) wall_forces.follow(before, now);
+}
+
 void Simulation::State::rebuild() {
   Section timer(context, "neighbours");
   planes.advance(context, fluid, list_places.span(), diagnostics, ordering.outlets());
@@ -167,11 +191,12 @@ void Simulation::State::rebuild() {
   const bool fed = feed();
   const double content = heat.any() ? heat.content(fluid, fluids.span(), diagnostics) : 0;
   const Index before = fluid.count;
+  const bool cut = builds > 0 && ordering.balance();
   ordering.sort(fluid, departed);
   if (heat.any() && fluid.count < before)
     heat.note_left(content, heat.content(fluid, fluids.span(), diagnostics));
   check_departure();
-  if (walls.any()) ordering.sort(wall);
+  if (walls.any() || cut) sort_walls();
   build_lists();
   if (exact_yield()) viscous.exact_yield().follow({fluid_list, wall_list, fluid.id, wall.id}, next_id());
   // Columns have stepped back: their pressures are those of other places.
@@ -220,7 +245,8 @@ std::array<ListedParticles, 3> Simulation::State::listed() const {
   const auto fluid_reach = static_cast<Real>(reach.support + reach.fluid_skin);
   const auto wall_reach = static_cast<Real>(reach.support + reach.wall_skin);
   const SourceView from_fluid = ordering.fluid_sources(fluid), from_walls = ordering.wall_sources(wall);
-  const Span<const Quad> places = fluid.place.span(), wall_places = wall.place.span();
+  const Span<const Quad> places{fluid.place.span().data, fluid.count},
+      wall_places{wall.place.span().data, wall.count};
   return {{{from_fluid, places, fluid.count, from_fluid.cell_start, box, fluid_reach, Pairs::self},
            {from_walls, places, fluid.count, from_fluid.cell_start, box, wall_reach, Pairs::other},
            {from_fluid, wall_places, wall.count, from_walls.cell_start, box, wall_reach, Pairs::other}}};
@@ -243,10 +269,11 @@ SourceView Simulation::State::moving_wall_sources() const {
 }
 
 ListAge::Particles Simulation::State::fluid_for_age() const {
-  return {ordering.fluid_sources(fluid), displacement, wall_list.near_sources()};
+  return {ordering.fluid_sources(fluid), displacement, wall_list.near_sources(), fluid.count.halo};
 }
 ListAge::Particles Simulation::State::walls_for_age() const {
-  return {ordering.wall_sources(wall), largest_wall_displacement(), wall_to_fluid.near_sources()};
+  return {ordering.wall_sources(wall), largest_wall_displacement(), wall_to_fluid.near_sources(),
+          wall.count.halo};
 }
 
 void Simulation::State::renew_lists(const ListGate& gate) {
@@ -269,10 +296,11 @@ void Simulation::State::follow_moving_walls() {
 
 // The walls as they were when the lists were built, in the same order.
 void Simulation::State::restore_walls() {
-  if (!walls.any()) return;
-  inlets.fed_at(list_time);
-  walls.place({list_time, dt, 0}, wall), inlets.place({list_time, dt, 0}, wall);
-  ordering.sort(wall);
+  if (walls.any()) {
+    inlets.fed_at(list_time);
+    walls.place({list_time, dt, 0}, wall), inlets.place({list_time, dt, 0}, wall);
+  }
+  if (walls.any() || ranks().several()) ordering.sort(wall);
 }
 
 // The lists as they were: from the places at which all were built, in the order that the particles still
@@ -347,10 +375,9 @@ void Simulation::State::look() {
 // Names the first particle that is not a number: by its motion, or else by its density, which follows within
 // a step.
 void Simulation::State::check_finite() {
-  std::vector<Vec3d> position;
-  std::vector<Quad> motion;
-  std::vector<Index> id;
-  fluid.position.download(position), fluid.motion.download(motion), fluid.id.download(id);
+  const auto position = rows_of_all(fluid.position, fluid.count, On::all_ranks);
+  const auto motion = rows_of_all(fluid.motion, fluid.count, On::all_ranks);
+  const auto id = rows_of_all(fluid.id, fluid.count, On::all_ranks);
   std::ostringstream message;
   message << "not a number in step " << steps + 1 << " at " << time << " s: ";
   for (const bool motion_only : {true, false})

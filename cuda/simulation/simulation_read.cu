@@ -42,7 +42,7 @@ void Simulation::State::tell_passed(Totals& t) const {
 Totals Simulation::totals() {
   State& s = *state_;
   Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
-  t.particles = s.fluid.count;
+  t.particles = s.fluid.count.of_all();
   t.mass_start = s.start_mass;
   t.in_thin_sheets = s.sheets.count_thin(s.pairs(), s.diagnostics);
   t.dissipated_energy = s.taken + s.wall_work().viscous;

@@ -20,6 +20,33 @@ constexpr const char* numbers_name = "numbers";
 class Saver {
  public:
   explicit Saver(SavedState& state) : state_(state) {}
+  Saver(SavedState& state, const SavedRows& rows) : state_(state), rows_(rows) {}
+
+  // What ranks have a part each of is whole on the first one.
+  template <class T>
+  void of_fluid(const char* name, Buffer<T>& buffer) {
+    own_part(name, buffer, rows_.fluid);
+  }
+  template <class T>
+  void of_walls(const char* name, Buffer<T>& buffer) {
+    own_part(name, buffer, rows_.walls);
+  }
+  template <class T>
+  void of_cells(const char* name, Buffer<T>& buffer) {
+    own_part(name, buffer, rows_.cells);
+  }
+  template <class T>
+  void of_rows(const char* name, std::vector<T>& host) {
+    std::vector<T> all = ranks().gathered_on_first(host);
+    values(name, all);
+  }
+  template <class T>
+  void of_one_rank_each(const char* name, Buffer<T>& buffer) {
+    std::vector<T> host;
+    buffer.download(host);
+    ranks().join(host.data(), host.size() * sizeof(T));
+    values(name, host);
+  }
 
   template <class T>
   void array(const char* name, Buffer<T>& buffer) {
@@ -48,7 +75,16 @@ class Saver {
   void end() { values(numbers_name, numbers_); }
 
  private:
+  template <class T>
+  void own_part(const char* name, const Buffer<T>& buffer, const PartOfRows& part) {
+    std::vector<T> host;
+    buffer.download(host);
+    host.resize(static_cast<std::size_t>(part.own));
+    of_rows(name, host);
+  }
+
   SavedState& state_;
+  SavedRows rows_;
   std::vector<double> numbers_;
 };
 
@@ -56,6 +92,33 @@ class Restorer {
  public:
   explicit Restorer(const SavedState& state, const char* numbers = numbers_name) : state_(state) {
     values(numbers, numbers_);
+  }
+
+  // Of what ranks have a part each of, that of this rank.
+  SavedRows rows;
+  template <class T>
+  void of_fluid(const char* name, Buffer<T>& buffer) {
+    own_part(name, buffer, rows.fluid);
+  }
+  template <class T>
+  void of_walls(const char* name, Buffer<T>& buffer) {
+    own_part(name, buffer, rows.walls);
+  }
+  template <class T>
+  void of_cells(const char* name, Buffer<T>& buffer) {
+    const Offset size = buffer.size();  // those of other ranks count for nothing
+    own_part(name, buffer, rows.cells);
+    buffer.reserve(size);
+    buffer.resize(size);
+  }
+  template <class T>
+  void of_rows(const char* name, std::vector<T>& host) const {
+    values(name, host);
+  }
+  template <class T>
+  void of_one_rank_each(const char* name, Buffer<T>& buffer) {
+    as_many(name, buffer);
+    if (ranks().several() && !ranks().first()) buffer.upload(std::vector<T>(static_cast<std::size_t>(buffer.size())));
   }
 
   template <class T>
@@ -108,6 +171,14 @@ class Restorer {
   [[noreturn]] static void refuse_numbers() { throw Error("checkpoint: its numbers are not those of a run"); }
 
  private:
+  template <class T>
+  void own_part(const char* name, Buffer<T>& buffer, const PartOfRows& part) {
+    std::vector<T> host;
+    values(name, host);
+    require_fit(static_cast<Offset>(host.size()) == part.all);
+    buffer.upload({host.begin() + part.first, host.begin() + part.first + part.own});
+  }
+
   const SavedState& state_;
   std::vector<double> numbers_;
   std::size_t next_ = 0;
@@ -134,13 +205,13 @@ void visit_solves(Visitor& v, SolverTotals& all, SolveReport& last) {
 // Each part says itself what of it goes into a checkpoint.
 template <class Visitor, class State>
 void visit_parts(Visitor& v, State& s) {
-  s.fluid.each(Fate::saved, [&](auto& array) { v.array(array.field.name, array); });
-  s.wall.each(Fate::saved, [&](auto& array) { v.as_many(array.field.name, array); });
+  s.fluid.each(Fate::saved, [&](auto& array) { v.of_fluid(array.field.name, array); });
+  s.wall.each(Fate::saved, [&](auto& array) { v.of_walls(array.field.name, array); });
   s.wall_forces.save(v), s.planes.save(v), s.rectangles.save(v), s.residence.save(v), s.viscous.save(v),
       s.watch.save(v), s.heat.save(v);
-  v.array("list_places", s.list_places), s.list_age.save(v);
+  v.of_fluid("list_places", s.list_places), s.list_age.save(v);
   const char* const bits[] = {"fluid_list_bits", "wall_list_bits", "wall_to_fluid_bits"};
-  for (std::size_t k = 0; k < s.list_bits.size(); ++k) v.values(bits[k], s.list_bits[k]);
+  for (std::size_t k = 0; k < s.list_bits.size(); ++k) v.of_rows(bits[k], s.list_bits[k]);
   v.as_many("departed", s.departed);
   v.as_many("removed", s.ordering.removed);
   visit_solves(v, s.solver, s.report);
@@ -278,12 +349,26 @@ FluidState fluid_state(const SavedState& arrays) {
 SavedState Simulation::save() const {
   State& s = *state_;
   SavedState result;
-  Saver saver(result);
   s.remember_lists();
+  Saver saver(result, s.saved_rows(s.fluid.count));
   visit_clock(saver, s);
   visit_parts(saver, s);
   s.list_bits = {};
   return result;
+}
+
+SavedRows Simulation::State::saved_rows(Index fluid_rows) const {
+  return {PartOfRows(fluid_rows), PartOfRows(wall.count), PartOfRows(ordering.fluid_sources(fluid).grid.own_cells())};
+}
+
+// Of a state from a file, which is without the copies of the neighbours' particles.
+void Simulation::State::meet_neighbours(const Borders& borders) {
+  fluid.resize(slagflow::meet_neighbours(ordering.slabs(), fluid.count, borders));
+  exchange_all(fluid);
+  list_places.reserve(fluid.local());
+  list_places.resize(fluid.local());
+  exchange(context, fluid.count, list_places);
+  exchange(context, wall.count, wall.pressure);
 }
 
 void Simulation::restore(const SavedState& saved) {
@@ -291,13 +376,16 @@ void Simulation::restore(const SavedState& saved) {
   Restorer restorer(saved);
   visit_clock(restorer, s);
   require_possible_clock(s);
+  std::vector<Quad> places;
+  restorer.values("list_places", places);
+  const Ordering::Dealt dealt = s.ordering.deal_out(places);
   s.restore_walls();
+  restorer.rows = s.saved_rows(dealt.own);
+  s.fluid.resize(dealt.own);
   visit_parts(restorer, s);
   if (s.solver.steps < 0) Restorer::refuse_numbers();
-  const Offset n = s.fluid.id.size();
-  Restorer::require_fit(s.list_places.size() == n);
-  s.fluid.each(Fate::saved, [&](const auto& array) { Restorer::require_fit(array.size() == n); });
-  s.fluid.resize(static_cast<Index>(n));
+  s.fluid.resize(dealt.own);
+  if (ranks().several()) s.meet_neighbours(dealt.borders);
   require_possible(s.fluid, s.list_places, s.ordering.fluid_sources(s.fluid).grid, s.departed.size());
   s.last.reset();
   s.rebuild_lists_as_saved();

@@ -36,6 +36,8 @@ struct StateTransfer::Data {
   SideCopy copy;
   std::vector<SideCopy::Part> parts;
   std::vector<const void*> buffers;               // whose contents the parts are
+  std::vector<std::vector<std::byte>> together;   // with several ranks: those of all, in place of the copy
+  On where = On::first_rank;
   const Simulation::State* of = nullptr;          // null: nothing is under way
   double time = 0, flow_time = 0, list_time = 0;  // walls and inlets go by that of the flow
   Reading what{};
@@ -47,14 +49,25 @@ struct StateTransfer::Data {
     parts.push_back({buffer.span().data, static_cast<std::size_t>(buffer.size()) * sizeof(T)});
     buffers.push_back(&buffer);
   }
+  // With several ranks what the others have comes at once, to the first or to all.
+  template <class T>
+  void add(const Buffer<T>& buffer, const Rows& rows) {
+    add(buffer);
+    if (!rows.halo) return;
+    const std::vector<T> all = rows_of_all(buffer, rows, where);
+    together.emplace_back(all.size() * sizeof(T));
+    if (!all.empty()) std::memcpy(together.back().data(), all.data(), together.back().size());
+  }
   void add_shown(const ParticleArrays& arrays) {
-    arrays.each(Fate::shown, [&](const auto& array) { add(array); });
+    arrays.each(Fate::shown, [&](const auto& array) { add(array, arrays.count); });
   }
   // What the buffer held when the copy was started.
   template <class T>
   const T* part(const Buffer<T>& buffer) const {
     const auto at = std::find(buffers.begin(), buffers.end(), static_cast<const void*>(&buffer));
-    return static_cast<const T*>(copy.part(static_cast<std::size_t>(at - buffers.begin())));
+    const auto number = static_cast<std::size_t>(at - buffers.begin());
+    if (!together.empty()) return reinterpret_cast<const T*>(together[number].data());
+    return static_cast<const T*>(copy.part(number));
   }
   void put(FluidSnapshot& out) const;
   void put_heat(const std::vector<std::size_t>& order, FluidSnapshot& out) const;
@@ -65,6 +78,7 @@ struct StateTransfer::Data {
     ~End() {
       data.of = nullptr;
       data.copy.forget();
+      data.together.clear();
     }
   };
 };
@@ -76,7 +90,7 @@ bool StateTransfer::under_way() const { return data_->of != nullptr; }
 
 void StateTransfer::finish(FluidSnapshot& fluid_out, WallSnapshot& walls_out) {
   const Data::End end{*data_};
-  data_->copy.wait();
+  if (data_->together.empty()) data_->copy.wait();
   data_->put(fluid_out);
   if (data_->what == Reading::fluid_and_walls) data_->put(walls_out);
 }
@@ -159,23 +173,28 @@ void Simulation::start_reading(StateTransfer& transfer, Reading what) {
   const Buffer<Real>& thickness = s.sheets.measure(s.pairs());
   StateTransfer::Data& data = *transfer.data_;
   data.what = what, data.time = s.now(), data.flow_time = s.time, data.list_time = s.list_time;
-  data.fluid = static_cast<std::size_t>(n), data.walls = static_cast<std::size_t>(s.wall.count);
   data.parts.clear(), data.buffers.clear();
-  data.add_shown(s.fluid), data.add(s.scratch), data.add(thickness), data.add(s.yielded);
+  const Rows& rows = s.fluid.count;
+  data.add_shown(s.fluid), data.add(s.scratch, rows), data.add(thickness, rows), data.add(s.yielded, rows);
   if (what == Reading::fluid_and_walls) data.add_shown(s.wall);
+  const bool here = data.where == On::all_ranks || ranks().first();
+  data.fluid = here ? static_cast<std::size_t>(rows.of_all()) : 0;
+  data.walls = here ? static_cast<std::size_t>(s.wall.count.of_all()) : 0;
   if (what == Reading::fluid_and_walls && s.heat.any()) data.wall_temperature = s.heat.wall_temperatures();
-  data.copy.start(s.side_stream, data.parts);
+  if (data.together.empty()) data.copy.start(s.side_stream, data.parts);
   data.of = state_.get();
 }
 
 void Simulation::read(FluidSnapshot& fluid) {
   WallSnapshot none;
+  state_->own_transfer.data_->where = On::all_ranks;
   start_reading(state_->own_transfer, Reading::fluid);
   state_->context.synchronize();
   state_->own_transfer.finish(fluid, none);
 }
 
 void Simulation::read(FluidSnapshot& fluid, WallSnapshot& walls) {
+  state_->own_transfer.data_->where = On::all_ranks;
   start_reading(state_->own_transfer, Reading::fluid_and_walls);
   state_->context.synchronize();
   state_->own_transfer.finish(fluid, walls);

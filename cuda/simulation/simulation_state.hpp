@@ -28,6 +28,11 @@
 
 namespace slagflow {
 
+// Which rows of all that is saved a rank has.
+struct SavedRows {
+  PartOfRows fluid, walls, cells;
+};
+
 struct Simulation::State {
   explicit State(const SimulationSetup& s);
 
@@ -82,8 +87,10 @@ struct Simulation::State {
   SideStream side_stream;
   StateTransfer own_transfer;
 
+  void deal_out();
   void upload_fluid();
   void upload_walls();
+  void sort_walls();
   void rebuild();
   double largest_wall_displacement() const {
     return larger(walls.largest_displacement(list_time, time), inlets.largest_displacement(list_time, time));
@@ -107,6 +114,8 @@ struct Simulation::State {
   void follow_moving_walls();
   std::array<std::vector<std::uint8_t>, 3> list_bits;  // of each list, while a state is saved or restored
   NeighbourList::Doubtful doubtful(const ListedParticles&) const;
+  SavedRows saved_rows(Index fluid_rows) const;
+  void meet_neighbours(const Borders&);
   void remember_lists();
   void restore_walls();
   void rebuild_lists_as_saved();

@@ -20,7 +20,7 @@ void Simulation::step() {
   constexpr std::int64_t most_steps = 20;  // without conduction
   if (s.heat.due(s.time + s.dt, s.dt, s.steps % most_steps == 0))
     s.heat.conduct(s.pairs(), s.wall_to_fluid.view(), s.time + s.dt, s.fluid);
-  if (s.fluid.count > 0) {
+  if (s.fluid.count.of_all() > 0) {
     s.last = s.solve_and_move();
     s.taken += s.last->taken, s.given += s.last->given;
     s.displacement = std::sqrt(s.last->displacement_squared);
@@ -79,9 +79,9 @@ void Simulation::State::reserve_step() {
   const CellGrid& grid = ordering.fluid_sources(fluid).grid;
   reserve_reductions(context, fluid.count, most_terms);
   reserve_reductions(context, larger(wall.count.room, grid.cells()), most_terms);
-  surface_tension.reserve(fluid.count);
+  surface_tension.reserve(fluid.local());
   scratch.resize(fluid.count);
-  viscous.reserve(fluid.count, fluid_list.capacity(), row_cells());
+  viscous.reserve(fluid.local(), fluid_list.capacity(), row_cells());
   if (setup.thermal.viscous_heating) heat.reserve(fluid.count);
 }
 
@@ -111,6 +111,7 @@ void Simulation::State::launch_move() {
   {
     Section timer(context, "advance");
     advance_particles(context, fluid, {viscous.velocity(), dt, list_places.span(), fluids.span()}, record);
+    exchange(context, fluid.count, fluid.place, fluid.motion, fluid.by_pressure);
   }
   Section timer(context, "neighbours");
   if (walls.any()) return;
@@ -125,6 +126,7 @@ bool Simulation::State::knows_wall_forces() const {
 void Simulation::State::add_wall_forces() {
   if (!knows_wall_forces()) return;
   Section timer(context, "wall forces");
+  viscous.exchange_velocity(fluid.count);
   wall_forces.add(
       viscous.as_solved(pairs()), wall_to_fluid.view(), wall,
       {solve_step.dt, viscous.implicit_share(), viscous.velocity(), viscous.explicit_velocity(fluid),

@@ -161,6 +161,15 @@ struct RowCells {
   CellGrid grid;
   Span<const Index> cell_start;
   std::uint64_t arrangement = 0;  // the same only while the cells hold the same rows; 0: never
+  const Halo* halo = nullptr;     // where other ranks have the rows of other planes
+
+  // Of a cell of the whole grid; none where the rank has no copies of them.
+  HOST_DEVICE RowRange of(Index cell) const {
+    const Index stride = grid.cells_of_plane(), plane = cell / stride, local = grid.local_plane(plane);
+    if (local < 0) return {0, 0};
+    const Index at = cell + (local - plane) * stride;
+    return {cell_start[at], cell_start[at + 1]};
+  }
 };
 
 struct SolveLimits {

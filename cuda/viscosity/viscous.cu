@@ -168,7 +168,7 @@ LinearSystem ViscousStep::system(const PairContext& c) const {
 
 SolveResult ViscousStep::advance(const PairContext& c, const RowCells& rows, const Step& step,
                                  Offset pair_capacity, FluidArrays& fluid) {
-  reserve(fluid.count, pair_capacity, rows);
+  reserve(fluid.local(), pair_capacity, rows);
   begin(c, rows, step, fluid);
   return finish(read(), c, rows, step, fluid);
 }
@@ -181,6 +181,7 @@ void ViscousStep::begin(const PairContext& whole, const RowCells& rows, const St
   const PairContext c = as_solved(whole);
   const auto theta = static_cast<Real>(assembled_share());
   assemble(c, step, fluid);
+  exchange(context_, n, predicted_, fluid.increment);
   Section timer(context_, "viscous solve");
   const LinearSystem matrix = system(c);
   if (theta < 1)
@@ -223,7 +224,7 @@ SolveResult ViscousStep::finish(const StepRecord& now, const PairContext& whole,
   if (s.converged) return {s.iterations, s.residual, s.right_hand_side, true};
   Section timer(context_, "viscous solve");
   const PairContext c = as_solved(whole);
-  const double wanted = wanted_residual(step, fluid.count);
+  const double wanted = wanted_residual(step, fluid.count.of_all());
   SolveResult result = exact_yield_stress()
                            ? solve_exact(system(c), c, rows, step, fluid)
                            : go_on(system(c), rows, s, wanted * wanted / step.mass, fluid.increment);
@@ -290,10 +291,11 @@ void ViscousStep::begin_solve(const LinearSystem& matrix, const RowCells& rows, 
   constexpr int patience = 4;
   Buffer<Quad>& increment = fluid.increment;
   const int most = most_by_diagonal(patience);
+  const Rows all = matrix.size.halo ? Rows(matrix.size.of_all()) : matrix.size;
   launch_reduction<AddUp>(context_, "start", matrix.size,
                           StartFromPredicted{matrix, predicted_.span(), increment.span(), chords(step, fluid),
                                              right_hand_side_.span(), work_.residual.span()},
-                          BeginSolve{work_.state(), wanted_residual(step, 1), matrix.size, most});
+                          BeginSolve{work_.state(), wanted_residual(step, 1), all, most});
   if (most <= 0) return;
   const auto launch_batch = [&] {
     launch_conjugate_gradient(context_, matrix, smaller(patience, most), increment, work_);
@@ -302,7 +304,7 @@ void ViscousStep::begin_solve(const LinearSystem& matrix, const RowCells& rows, 
   context_.repeat_while(&work_.state()->running, launch_batch);
   if (!goes_on_with_levels(rows)) return;
   SolveLimits limits;
-  limits.energy = square(wanted_residual(step, matrix.size)) / step.mass,
+  limits.energy = square(wanted_residual(step, matrix.size.of_all())) / step.mass,
   limits.max_iterations = numerics_.max_iterations;
   multigrid_.launch_solve(matrix, rows, limits, {increment, work_});
 }

@@ -64,6 +64,8 @@ class ViscousStep {
 
   ExactYield& exact_yield() { return yield_; }
   Span<const Quad> velocity() const { return velocity_.span(); }
+  // Of the copies of other ranks' particles.
+  void exchange_velocity(const Rows& rows) { exchange(context_, rows, velocity_); }
   // Of the step: u*, and w_ij of each entry of the fluid list [kg].
   Span<const Quad> predicted() const { return predicted_.span(); }
   PairWeights weights() const;

@@ -142,7 +142,7 @@ void MovingWalls::place(const WallStep& step, WallArrays& wall) {
     if (now[b].moves && !now[b].removed)
       speed_ = larger(speed_, norm(now[b].velocity) + radius_[b] * norm(now[b].angular_velocity));
   pose_.upload(now);
-  launch(context_, "place walls", wall.count,
+  launch(context_, "place walls", wall.local(),
          PlaceWall{1 / step.dt, static_cast<Real>(step.last_dt), pose_.span(), body_.span(), position_.span(),
                    normal_.span(), back_.span(), velocity_.span(), wall.id.span(), wall.place.span(),
                    wall.normal.span(), wall.back.span(), wall.velocity.span(), wall.acceleration.span(),

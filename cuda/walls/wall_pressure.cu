@@ -56,6 +56,7 @@ void extrapolate_wall_pressure(Context& context, const PairContext& c, const Lis
            WallPressure<decltype(box)>{c, list, box, wall.pressure.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
+  exchange(context, wall.count, wall.pressure);
 }
 
 }  // namespace slagflow

@@ -4,6 +4,7 @@
 #include "host/measures/measure_surface.hpp"
 #include "host/measures/measure_text.hpp"
 #include "host/output/checkpoint_store.hpp"
+#include "ranks/ranks.hpp"
 
 namespace slagflow {
 namespace {
@@ -50,7 +51,10 @@ std::string profile_file(const std::string& name) { return "profile_" + name + "
 
 ProfileFiles::ProfileFiles(const Case& c, const SimulationSetup& setup, const std::string& folder)
     : surfaces_(setup.surfaces), heat_(setup.thermal.on) {
-  for (const MeasureFile& file : measure_files(c))
+  const std::vector<MeasureFile> files = measure_files(c);
+  profiles_ = files.size() - surfaces_.size();
+  if (!ranks().first()) return;
+  for (const MeasureFile& file : files)
     files_.emplace_back(folder + "/" + file.name, columns_of(file.type, heat_));
 }
 
@@ -61,19 +65,26 @@ ProfileFiles::ProfileFiles(const Case& c, const SimulationSetup& setup, const st
   if (ends.size() != 2 * files.size())
     throw Error("checkpoint: " + std::to_string(ends.size()) + " numbers for " +
                 std::to_string(files.size()) + " profiles");
+  profiles_ = files.size() - surfaces_.size();
+  if (!ranks().first()) return;
   for (std::size_t k = 0; k < files.size(); ++k)
     files_.emplace_back(folder + "/" + files[k].name, columns_of(files[k].type, heat_),
                         HistoryEnd{ends[2 * k], ends[2 * k + 1]});
 }
 
-void ProfileFiles::write(const Simulation& simulation) {
+ProfileFiles::Lines ProfileFiles::read(const Simulation& simulation) const {
   const double time = simulation.time();
-  const std::size_t profiles = files_.size() - surfaces_.size();
-  for (std::size_t k = 0; k < profiles; ++k)
-    for (const ProfilePoint& p : simulation.profile(k)) files_[k].write(profile_line(time, p, heat_));
+  Lines lines(profiles_);
+  for (std::size_t k = 0; k < profiles_; ++k)
+    for (const ProfilePoint& p : simulation.profile(k)) lines[k].push_back(profile_line(time, p, heat_));
   for (std::size_t k = 0; k < surfaces_.size(); ++k)
-    for (const std::vector<double>& line : surface_lines(time, surfaces_[k], simulation.surface(k)))
-      files_[profiles + k].write(line);
+    lines.push_back(surface_lines(time, surfaces_[k], simulation.surface(k)));
+  return lines;
+}
+
+void ProfileFiles::write(const Lines& lines) {
+  for (std::size_t k = 0; k < files_.size(); ++k)
+    for (const std::vector<double>& line : lines[k]) files_[k].write(line);
 }
 
 std::vector<std::int64_t> ProfileFiles::finish() {

@@ -45,15 +45,19 @@ class ProfileFiles {
   ProfileFiles(const Case&, const SimulationSetup&, const std::string& folder,
                const std::vector<std::int64_t>& ends);
 
-  // Adds those of now, a line for each point or column. Throws Error.
-  void write(const Simulation&);
+  // Those of now, for each file a line a point or column. A call of all ranks.
+  using Lines = std::vector<std::vector<std::vector<double>>>;
+  Lines read(const Simulation&) const;
+  // Adds them. Throws Error.
+  void write(const Lines&);
   // What lies in the files so far; they are on disk afterwards.
   std::vector<std::int64_t> finish();
 
  private:
   std::vector<SurfaceSetup> surfaces_;
   bool heat_;
-  std::vector<HistoryFile> files_;
+  std::size_t profiles_ = 0;
+  std::vector<HistoryFile> files_;  // of the first rank
 };
 
 }  // namespace slagflow

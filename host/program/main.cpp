@@ -31,5 +31,5 @@ int main(int argc, char** argv) {
   // A file that is as large as may be, and a pipe that nobody reads any more, are errors of a write.
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  return slagflow::run_program(argc, argv);
+  return slagflow::run_with_others(argc, argv);
 }

@@ -30,6 +30,7 @@
 #include "host/run/progress.hpp"
 #include "host/run/run.hpp"
 #include "version.hpp"
+#include "ranks/ranks.hpp"
 
 namespace slagflow {
 namespace {
@@ -305,6 +306,18 @@ int run_program(int argc, const char* const* argv) {
     std::fprintf(stderr, "error: %s\n", error.what());
   }
   return 1;
+}
+
+int run_with_others(int argc, char** argv) {
+  try {
+    ranks().start(argc, argv);
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return 2;
+  }
+  const int status = run_program(argc, argv);
+  ranks().end();
+  return status;
 }
 
 }  // namespace slagflow

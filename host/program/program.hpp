@@ -7,4 +7,7 @@ namespace slagflow {
 // Results go to stdout, messages to stderr. Throws nothing.
 int run_program(int argc, const char* const* argv);
 
+// The same of one of the processes that a launcher has started, as mpirun does.
+int run_with_others(int argc, char** argv);
+
 }  // namespace slagflow

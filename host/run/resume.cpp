@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "backend/error.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"
+#include "host/run/first_rank.hpp"
 #include "host/run/present_outputs.hpp"
 #include "host/run/run_changes.hpp"
 #include "host/run/run_folder.hpp"
@@ -56,18 +58,20 @@ RunOutcome resume_run(const RunOptions& options) {
   std::error_code failed;
   if (!std::filesystem::is_directory(folder, failed))
     throw InputError(folder + ": is no folder: allowed: the folder of a run");
-  const FolderLock lock(folder);
+  std::optional<FolderLock> lock;
+  on_first_rank([&] { lock.emplace(folder); });
   if (options.threads > 0) set_threads(options.threads);
   const CheckpointStore store(folder);
   FoundCheckpoint found = store.read_newest();
   require_same_build(found);
   GoingCase going = going_case(found, options);
   require_loops(going.built.resolved);
+  require_dealable(going.built.resolved);
   if (began_from_another(found.checkpoint)) start_from(read_start(folder), going.built);
   require_outputs(folder, found.checkpoint.run, going.built.resolved);
 
   Log log(options.verbosity);
-  log.open(folder + "/log.txt", std::ios::app);
+  on_first_rank([&] { log.open(folder + "/log.txt", std::ios::app); });
   warn_of_threads(options.threads, log);
   going.built.setup.time_parts = options.time_parts;
   const OutputSpec output = going.built.resolved.output;
@@ -77,7 +81,7 @@ RunOutcome resume_run(const RunOptions& options) {
   for (const std::string& message : going.messages) log.info(message);
   const RunRecord at = found.checkpoint.run;
   run.go_on_from(std::move(found.checkpoint), going.changes);
-  if (!found.damaged.empty()) store.set_damaged_aside();
+  if (!found.damaged.empty()) on_first_rank([&] { store.set_damaged_aside(); });
   log.info("resumed from " + found.path + " at " + std::to_string(at.time) + " s, step " +
            std::to_string(at.steps));
   RunOutcome outcome = run.execute();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "backend/device.hpp"
@@ -9,12 +10,14 @@
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/check.hpp"
+#include "host/run/first_rank.hpp"
 #include "host/run/progress.hpp"
 #include "host/run/run_folder.hpp"
 #include "host/run/run_interrupt.hpp"
 #include "host/run/run_loop.hpp"
 #include "host/run/run_options.hpp"
 #include "host/run/start_state.hpp"
+#include "ranks/ranks.hpp"
 
 namespace slagflow {
 namespace {
@@ -54,12 +57,15 @@ void write_start(const StartState& start, const std::string& folder) {
 RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
   InterruptGuard signals;
   require_loops(c);
+  require_dealable(c);
   Case limited = c;
   if (options.until) end_at(*options.until, limited);
   if (options.threads > 0) set_threads(options.threads);
   const std::string folder = run_folder(c, options);
-  require_free_folder(folder, options.overwrite);
-  require_not_the_case(folder, c.file);
+  on_first_rank([&] {
+    require_free_folder(folder, options.overwrite);
+    require_not_the_case(folder, c.file);
+  });
   BuiltCase built = [&] {
     StartProgress progress(options.verbosity);
     return build_setup(limited, progress.stage());
@@ -69,16 +75,22 @@ RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
   const double on_device = device_info().memory;
   require_memory(built, on_device > 0 ? on_device : available_memory());
 
-  if (signals.requested()) return interrupted_before(folder);
+  if (ranks().shared(signals.requested())) return interrupted_before(folder);
 
   Log log(options.verbosity);
-  create_folder(folder);
-  const FolderLock lock(folder);
-  clear_folder(folder);
-  log.open(folder + "/log.txt");
+  std::optional<FolderLock> lock;
+  on_first_rank([&] {
+    create_folder(folder);
+    lock.emplace(folder);
+    clear_folder(folder);
+    log.open(folder + "/log.txt");
+  });
   warn_of_threads(options.threads, log);
   for (const std::string& warning : check_case(built).warnings) log.warning(warning);
-  if (start) write_start(*start, folder), tell_of_state(*start, log);
+  if (start) {
+    on_first_rank([&] { write_start(*start, folder); });
+    tell_of_state(*start, log);
+  }
   Run run(std::move(built), folder, log, signals);
   if (start) run.begin_from(start->checkpoint);
   return with_advice(run.execute(), options);

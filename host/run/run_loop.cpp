@@ -12,7 +12,9 @@
 #include "backend/error.hpp"
 #include "fluid/constants.hpp"
 #include "host/case/toml_reader.hpp"
+#include "host/run/first_rank.hpp"
 #include "host/run/run_folder.hpp"
+#include "ranks/ranks.hpp"
 
 namespace slagflow {
 namespace {
@@ -117,7 +119,11 @@ RunOutcome Run::execute() {
     outcome_.status = loop();
     save_checkpoint();
     end_outputs();
+  } catch (const LocalError& error) {
+    if (ranks().several()) end_all(error.what());
+    fail(error.what());
   } catch (const std::bad_alloc&) {
+    if (ranks().several()) end_all("out of memory");
     fail("out of memory (" + std::to_string(counts_.particles_start) + " fluid and " +
          std::to_string(counts_.walls) + " wall particles)");
   } catch (const std::exception& error) {
@@ -133,7 +139,7 @@ RunOutcome Run::execute() {
 }
 
 void Run::start() {
-  write_file(folder_ + "/case.toml", provenance_.case_text);
+  on_first_rank([&] { write_file(folder_ + "/case.toml", provenance_.case_text); });
   log_.info("slagflow " + provenance_.version + " (" + provenance_.commit + "), " + provenance_.backend +
             ", " + provenance_.precision + ", " + provenance_.device);
   log_.info("case " + built_.resolved.name + ": " + std::to_string(counts_.particles_start) + " fluid and " +
@@ -142,7 +148,8 @@ void Run::start() {
   built_.setup.particles = {};  // on the device now
   built_.setup.walls = {};
   if (resumed_) simulation_->restore(resumed_->state);
-  open_outputs();
+  on_first_rank([&] { open_outputs(); });
+  open_profiles();
   counts_.setup_time = (resumed_ ? resumed_->run.setup_time : 0) + seconds_between(begun_, Clock::now());
   resumed_.reset();
   started_ = saved_ = Clock::now();
@@ -160,14 +167,22 @@ void Run::open_outputs() {
   if (!resumed_) {
     history_.emplace(history, columns);
     snapshots_.emplace(folder_, sizes, provenance_.attributes());
-    profiles_.emplace(built_.resolved, built_.setup, folder_);
     return;
   }
   const RunRecord& run = resumed_->run;
   history_.emplace(history, columns, HistoryEnd{run.history_lines, run.history_bytes});
   snapshots_.emplace(folder_, sizes, PresentSnapshots(run.snapshots));
-  profiles_.emplace(built_.resolved, built_.setup, folder_, run.profiles);
   snapshots_->describe(provenance_.attributes());  // another end time, perhaps
+}
+
+// The other ranks have them without files.
+void Run::open_profiles() {
+  const auto open = [&] {
+    resumed_ ? profiles_.emplace(built_.resolved, built_.setup, folder_, resumed_->run.profiles)
+             : profiles_.emplace(built_.resolved, built_.setup, folder_);
+  };
+  on_first_rank(open);
+  if (!ranks().first()) open();
 }
 
 RunStatus Run::loop() {
@@ -180,7 +195,7 @@ RunStatus Run::loop() {
     if (time >= built_.resolved.output.last_time()) return RunStatus::done;
     const std::string& last = built_.resolved.output.stop_after;
     if (measures_.arrived(last)) return end_early(last + " has arrived, as output.stop_after asks");
-    if (signals_.requested()) {
+    if (ranks().shared(signals_.requested())) {
       log_.warning("interrupted at " + std::to_string(time) + " s");
       return RunStatus::interrupted;
     }
@@ -226,26 +241,42 @@ void Run::record() {
     return measured_;
   };
   for (const double value : measures_.update(simulation_->time(), totals, read)) values.push_back(value);
-  history_->write(values);
+  on_first_rank([&] { history_->write(values); });
 }
 
 void Run::take_snapshot() {
   if (snapshot_step_ == simulation_->steps()) return;
-  snapshots_->write([this](Snapshot& snapshot) {
-    simulation_->start_reading(snapshot.arriving,
-                               snapshots_->writes_walls() ? Reading::fluid_and_walls : Reading::fluid);
-  });
-  profiles_->write(*simulation_);
+  const Reading what =
+      built_.resolved.output.walls && counts_.walls > 0 ? Reading::fluid_and_walls : Reading::fluid;
+  if (ranks().several()) {
+    StateTransfer all;
+    simulation_->start_reading(all, what);
+    on_first_rank([&] {
+      snapshots_->write([&](Snapshot& snapshot) { all.finish(snapshot.particles, snapshot.walls); });
+    });
+  } else {
+    snapshots_->write([&](Snapshot& snapshot) { simulation_->start_reading(snapshot.arriving, what); });
+  }
+  const ProfileFiles::Lines lines = profiles_->read(*simulation_);
+  on_first_rank([&] { profiles_->write(lines); });
   snapshot_step_ = simulation_->steps();
 }
 
+// What a clock or a signal asks for, the first rank asks for all.
 bool Run::checkpoint_due() {
-  if (signals_.take_checkpoint_request()) return true;
+  const bool asked = signals_.take_checkpoint_request();
   const double interval = built_.resolved.output.checkpoint_interval;
-  return interval > 0 && (!saved_time_ || seconds_between(saved_, Clock::now()) >= interval);
+  const bool due = interval > 0 && (!saved_time_ || seconds_between(saved_, Clock::now()) >= interval);
+  return ranks().shared(asked || due);
 }
 
 // What the loop remembers now. The outputs must be on disk before a checkpoint counts on them.
+void Run::flush_outputs() {
+  snapshots_->finish_queue();
+  flush_to_disk(history_->path());
+  profiles_->finish();
+}
+
 RunRecord Run::run_record() {
   RunRecord run;
   run.snapshots = snapshots_->finish_queue();
@@ -277,19 +308,22 @@ RunRecord Run::run_record() {
 // what an unbroken one gives. A state that the watch would not let pass is no checkpoint.
 void Run::save_checkpoint() {
   simulation_->require_sound();
-  const RunRecord run = run_record();
-  store_.write({provenance_.attributes(), run, simulation_->save()});
-  saved_time_ = run.time;
+  write_checkpoint();
+}
+
+void Run::write_checkpoint() {
+  SavedState state = simulation_->save();
+  on_first_rank([&] { store_.write({provenance_.attributes(), run_record(), std::move(state)}); });
+  saved_time_ = simulation_->time();
 }
 
 // A run is worth more than a checkpoint: it goes on without one, but not without its other outputs.
 void Run::try_to_save_checkpoint() {
   simulation_->require_sound();
-  const RunRecord run = run_record();
+  on_first_rank([&] { flush_outputs(); });
   try {
-    store_.write({provenance_.attributes(), run, simulation_->save()});
-    saved_time_ = run.time;
-    log_.info("checkpoint at " + std::to_string(run.time) + " s");
+    write_checkpoint();
+    log_.info("checkpoint at " + std::to_string(*saved_time_) + " s");
   } catch (const Error& error) {
     log_.warning(std::string("no checkpoint, the last one stays: ") + error.what());
   }
@@ -301,9 +335,11 @@ void Run::end_outputs() {
   take_snapshot();
   losses_.look_at_all(*simulation_);
   thin_sheets_.look(totals(), simulation_->time());  // also where the last line was there before
-  snapshots_->close();
   provenance_.ended_utc = now_utc();
-  snapshots_->describe(provenance_.attributes());
+  on_first_rank([&] {
+    snapshots_->close();
+    snapshots_->describe(provenance_.attributes());
+  });
 }
 
 void Run::tell_compression() {
@@ -341,12 +377,18 @@ void Run::tell_losses() {
   }
 }
 
+// What one rank alone has seen: the others wait for it in vain.
+void Run::end_all(const std::string& reason) {
+  log_.error(reason);
+  ranks().abort(1, reason);
+}
+
 void Run::fail(const std::string& reason) {
   outcome_.status = RunStatus::failed;
   outcome_.reason = reason;
   totals_.reset();  // the step that failed may have moved particles
   log_.error(reason);
-  if (snapshots_) save_last_state();
+  if (ranks().shared(snapshots_.has_value())) save_last_state();
   if (saved_time_)
     log_.info(std::string("the last good state, at ") + std::to_string(*saved_time_) + " s, is in " +
               checkpoint_name);
@@ -378,7 +420,7 @@ void Run::write_summary() {
   if (!ended_early_.empty()) summary.set("ended_early", ended_early_);
   summary.set("measures", measures_.summary());
   try {
-    write_file(folder_ + "/summary.json", summary.text() + "\n");
+    on_first_rank([&] { write_file(folder_ + "/summary.json", summary.text() + "\n"); });
   } catch (const std::exception& error) {
     log_.error(error.what());
     outcome_.status = RunStatus::failed;

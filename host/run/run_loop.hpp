@@ -59,12 +59,15 @@ class Run {
   void note_origin();
   void start();
   void open_outputs();
+  void open_profiles();
   RunStatus loop();
   RunStatus end_early(const std::string& reason);
   void record();
   void take_snapshot();
   bool checkpoint_due();
   void save_checkpoint();
+  void write_checkpoint();
+  void flush_outputs();
   void try_to_save_checkpoint();
   RunRecord run_record();
   void end_outputs();
@@ -73,6 +76,7 @@ class Run {
   std::int64_t all_particles(const Totals&) const;
   void save_last_state();
   void fail(const std::string& reason);
+  [[noreturn]] void end_all(const std::string& reason);
   void write_summary();
   const Totals& totals();
   void tell(const std::vector<std::string>& lines);

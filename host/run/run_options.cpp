@@ -7,6 +7,7 @@
 #include "host/case/case_changes.hpp"
 #include "host/case/case_rules.hpp"
 #include "host/case/toml_reader.hpp"
+#include "ranks/ranks.hpp"
 
 namespace slagflow {
 
@@ -16,6 +17,22 @@ void require_loops(const Case& c) {
   if (c.numerics.solver_loop == SolverLoop::conditional && !missing.empty())
     throw InputError(c.place_of(key) + ": key '" + key + "': value \"conditional\" needs " + missing +
                      ": allowed: \"batch\"");
+}
+
+// Throws InputError where what the case asks for does not go with several ranks yet.
+void require_dealable(const Case& c) {
+  if (!ranks().several()) return;
+  const auto refuse = [&](const std::string& key, const std::string& value, const std::string& allowed) {
+    throw InputError(c.place_of(key) + ": key '" + key + "': value " + value +
+                     " does not go with several ranks: allowed: " + allowed);
+  };
+  if (c.numerics.yield == YieldModel::exact) refuse("numerics.yield", "\"exact\"", "\"regularised\"");
+  if (c.numerics.solver == ViscousSolver::sor)
+    refuse("numerics.solver", "\"sor\"", "\"multigrid\", \"conjugate_gradient\", \"jacobi\"");
+  if (c.numerics.solver_loop == SolverLoop::conditional)
+    refuse("numerics.solver_loop", "\"conditional\"", "\"batch\"");
+  if (c.thermal.on) refuse("thermal", "of a case with heat", "none, or one rank");
+  if (!c.inlets.empty()) refuse("inlet", "of a case with inlets", "none, or one rank");
 }
 
 // The end time of the case stays: the time steps before it are part of the flow.

@@ -13,6 +13,9 @@ namespace slagflow {
 // Throws InputError when the device is to repeat iterations and cannot.
 void require_loops(const Case& c);
 
+// Throws InputError where what the case asks for does not go with several ranks yet.
+void require_dealable(const Case& c);
+
 // The end time of the case stays: the time steps before it are part of the flow.
 void end_at(double until, Case& c);
 

@@ -1,16 +1,19 @@
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
 #include "viscosity/solvers/aggregates.hpp"
+#include "ranks/halo.hpp"
 
 namespace slagflow {
 
 namespace {
 
 struct HoldsRows {
-  Span<const Index> cell_start;
+  RowCells rows;
+  Index first;  // cell of the whole grid that the rank has
   Span<Offset> held;
-  HOST_DEVICE void operator()(Index cell) const {
-    held[cell] = cell_start[cell + 1] > cell_start[cell] ? 1 : 0;
+  HOST_DEVICE void operator()(Index n) const {
+    const RowRange own = rows.of(first + n);
+    held[first + n] = own.end > own.first ? 1 : 0;
   }
 };
 
@@ -90,8 +93,18 @@ Aggregates::Aggregates(Context& c)
 void Aggregates::find(const RowCells& rows) {
   grid_ = AggregateGrid::from(rows.grid);
   held_.resize(grid_.cells());
-  launch(context_, "occupied cells", grid_.cells(), HoldsRows{rows.cell_start, held_.span()});
+  const Index first = rows.grid.slab.first * rows.grid.cells_of_plane(), own = rows.grid.own_cells();
+  launch(context_, "occupied cells", own, HoldsRows{rows, first, held_.span()});
+  if (rows.halo) gather_parts(context_, held_, first, own);
   number_cells();
+  const auto before = [&](Index cell) {
+    Offset aggregates = 0;
+    context_.copy_to_host(&aggregates, before_.span().data + cell, sizeof aggregates);
+    return static_cast<Index>(aggregates);
+  };
+  if (!rows.halo) return;
+  first_own_ = before(first);
+  own_ = before(first + own) - first_own_;
 }
 
 void Aggregates::find(const AggregateView& finer) {
@@ -107,7 +120,8 @@ void Aggregates::number_cells() {
   exclusive_scan(context_, held_.span(), before_.span());
   Offset total = 0;
   context_.copy_to_host(&total, before_.span().data + cells, sizeof total);
-  count_ = static_cast<Index>(total);
+  count_ = own_ = static_cast<Index>(total);
+  first_own_ = 0;
   constexpr Offset margin_percent = 10;
   cell_.resize(count_, margin_percent), steps_.resize(count_, margin_percent);
   neighbour_.resize(total * neighbour_slots, margin_percent);

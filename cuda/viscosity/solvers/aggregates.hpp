@@ -85,14 +85,22 @@ struct AggregateGrid {
 
 constexpr int neighbour_slots = 27, own_slot = 13;
 
-// The aggregates of one level, numbered in the order of their cells.
+// A body for the aggregates from one on.
+template <class Body>
+struct FromAggregate : Body {
+  Index first;
+  HOST_DEVICE void operator()(Index n) const { Body::operator()(first + n); }
+};
+
+// The aggregates of one level, numbered in the order of their cells. Every rank has those of all.
 struct AggregateView {
   AggregateGrid grid;
   Index count = 0;
-  Span<const Index> cell;       // of each aggregate
-  Span<const CellSteps> steps;  // of the cell of each aggregate
-  Span<const Index> number;     // of each cell, -1: empty
-  Span<const Index> neighbour;  // neighbour_slots of each aggregate, -1: none
+  Index first_own = 0, own = 0;  // of which rows the rank has
+  Span<const Index> cell;        // of each aggregate
+  Span<const CellSteps> steps;   // of the cell of each aggregate
+  Span<const Index> number;      // of each cell, -1: empty
+  Span<const Index> neighbour;   // neighbour_slots of each aggregate, -1: none
 };
 
 class Aggregates {
@@ -104,7 +112,8 @@ class Aggregates {
   void find(const AggregateView& finer);
 
   AggregateView view() const {
-    return {grid_, count_, cell_.span(), steps_.span(), number_.span(), neighbour_.span()};
+    return {grid_,        count_,        first_own_,     own_,
+            cell_.span(), steps_.span(), number_.span(), neighbour_.span()};
   }
 
  private:
@@ -113,7 +122,7 @@ class Aggregates {
 
   Context& context_;
   AggregateGrid grid_;
-  Index count_ = 0;
+  Index count_ = 0, first_own_ = 0, own_ = 0;
   Buffer<Offset> held_, before_;
   Buffer<Index> cell_, number_, neighbour_;
   Buffer<CellSteps> steps_;

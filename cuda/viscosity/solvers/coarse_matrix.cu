@@ -1,5 +1,6 @@
 #include "backend/launch.hpp"
 #include "viscosity/solvers/coarse_matrix.hpp"
+#include "ranks/halo.hpp"
 
 namespace slagflow {
 
@@ -18,7 +19,8 @@ struct FindOwners {
   Span<const Index> cell;
   Span<Index> owner;
   HOST_DEVICE void operator()(Index a) const {
-    for (Index i = rows.cell_start[cell[a]]; i < rows.cell_start[cell[a] + 1]; ++i) owner[i] = a;
+    const RowRange own = rows.of(cell[a]);
+    for (Index i = own.first; i < own.end; ++i) owner[i] = a;
   }
 };
 
@@ -90,9 +92,9 @@ struct AssembleRows {
   HOST_DEVICE void operator()(Index a) const {
     clear_blocks(block, a);
     RigidSum sums[kept_slots] = {};
-    const Index cell = aggregates.cell[a];
+    const RowRange own = rows.of(aggregates.cell[a]);
     double inertia = 0;
-    for (Index i = rows.cell_start[cell]; i < rows.cell_start[cell + 1]; ++i) {
+    for (Index i = own.first; i < own.end; ++i) {
       add_row(a, i, sums);
       inertia += particle_inertia * static_cast<double>(system.diagonal[i].w);
     }
@@ -295,8 +297,10 @@ void CoarseMatrix::find(const CoarseView& finer) {
 
 void CoarseMatrix::assemble(const LinearSystem& system, const RowCells& rows) {
   const AggregateView a = aggregates_.view();
-  launch(context_, "assemble aggregates", a.count,
-         AssembleRows{system, rows, a, owner_.span(), block_.span()});
+  launch(context_, "assemble aggregates", a.own,
+         FromAggregate<AssembleRows>{{system, rows, a, owner_.span(), block_.span()}, a.first_own});
+  constexpr Offset each = kept_slots * block_entries;
+  if (rows.halo) gather_parts(context_, block_, a.first_own * each, a.own * each);
   launch(context_, "invert blocks", a.count, InvertBlocks{block_.span(), inverse_.span()});
 }
 

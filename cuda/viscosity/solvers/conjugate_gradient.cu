@@ -83,11 +83,13 @@ void launch_conjugate_gradient(Context& context, const LinearSystem& system, int
   SolveState* state = work.state();
   for (int k = 0; k < iterations; ++k) {
     launch(context, "direction", n, NewDirection{system.diagonal, r, p, state});
+    exchange_while(context, n, &state->running, work.direction);
     launch_reduction<AddUp>(context, "multiply", n, while_running(state, Multiply{system, p, product}),
                             JudgeDirection{state});
     launch_reduction<AddUp>(context, "advance", n, Advance{system.diagonal, p, product, u.span(), r, state},
                             JudgeIteration{state});
   }
+  exchange_unless(context, n, {&state->running, &state->converged}, u);
   launch_reduction<AddUp>(context, "residual", n, TrueResidual{{system, u.span(), r}, state},
                           JudgeSolution{state});
 }

@@ -30,6 +30,7 @@ SolveResult jacobi(Context& context, const LinearSystem& system, const SolveLimi
                    SolverWorkspace& work) {
   SolveResult result;
   for (;;) {
+    exchange(context, system.size, u);
     launch_reduction<AddUp>(context, "sweep", system.size, Sweep{system, u.span(), work.direction.span()},
                             KeepResidual{work.state()});
     result.residual = work.read(context).solve.residual;

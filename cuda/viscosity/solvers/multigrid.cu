@@ -21,9 +21,9 @@ struct RestrictRows {
   Span<const Quad> r;
   Span<double> force;
   HOST_DEVICE void operator()(Index a) const {
-    const Index cell = aggregates.cell[a];
+    const RowRange own = rows.of(aggregates.cell[a]);
     RigidMotion sum;
-    for (Index i = rows.cell_start[cell]; i < rows.cell_start[cell + 1]; ++i)
+    for (Index i = own.first; i < own.end; ++i)
       sum += force_at(arm(system, aggregates, i, a), aggregates.grid.scale, to_double(xyz(r[i])));
     store_motion(sum, force.data + static_cast<Offset>(a) * motions);
   }
@@ -255,6 +255,7 @@ void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& ro
   SolveState* state = work.state();
   for (int k = 0; k < at_a_time; ++k) {
     launch(context_, "direction", n, NewDirection{z, p, state});
+    exchange_while(context_, n, &state->running, work.direction);
     launch_reduction<AddUp>(context_, "multiply", n, while_running(state, Multiply{system, p, product}),
                             JudgeDirection{state});
     launch_reduction<AddUp>(context_, "advance", n, Advance{p, product, problem.u.span(), r, state},
@@ -265,6 +266,7 @@ void Multigrid::launch_iterations(const LinearSystem& system, const RowCells& ro
 
 void Multigrid::launch_end(const LinearSystem& system, Problem problem) {
   SolveState* state = problem.work.state();
+  exchange(context_, system.size, problem.u);
   launch_reduction<AddUp>(context_, "residual", system.size,
                           ResidualAtEnd{{system, problem.u.span(), problem.work.residual.span()}, state},
                           JudgeEnd{state});
@@ -287,7 +289,7 @@ void Multigrid::launch_solve(const LinearSystem& system, const RowCells& rows, c
 SolveState Multigrid::solve(const LinearSystem& system, const RowCells& rows, const SolveLimits& limits,
                             SolveState now, Problem problem) {
   constexpr int most_starts = 3;
-  prepare(rows, system.size);
+  prepare(rows, static_cast<Index>(system.place.size));
   build(system, rows);
   state_ = problem.work.state();
   while (!now.converged && now.residual > now.limit && now.iterations < limits.max_iterations &&
@@ -383,7 +385,11 @@ void Multigrid::precondition(const LinearSystem& system, const RowCells& rows, S
                              Span<Quad> z, Finish finish) {
   Level& finest = *levels_.front();
   const AggregateView a = finest.matrix.view().aggregates;
-  launch_level("restrict", a.count, RestrictRows{system, rows, a, r, finest.force.span()});
+  launch_level("restrict", a.own,
+               FromAggregate<RestrictRows>{{system, rows, a, r, finest.force.span()}, a.first_own});
+  if (rows.halo && (!state_ || goes_on_with(context_, &state_->running)))
+    gather_parts(context_, finest.force, static_cast<Offset>(a.first_own) * motions,
+                 static_cast<Offset>(a.own) * motions);
   cycle(0);
   const ProlongToRows prolong{system, a, finest.matrix.owner(), finest.motion.span(), r, z};
   launch_reduction<AddUp>(context_, "prolong", system.size, while_running(state_, prolong), finish);
