@@ -12,7 +12,7 @@ namespace slagflow {
 inline void check(cudaError_t status, const char* what) {
   if (status != cudaSuccess)
     throw LocalError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status) + " (" +
-                cudaGetErrorName(status) + ")");
+                     cudaGetErrorName(status) + ")");
 }
 
 }  // namespace slagflow

@@ -122,6 +122,8 @@ DeviceInfo device_info() {
 
 std::string missing_for_loops() { return {}; }
 
+void use_device_of_rank(int) {}
+
 void set_threads(int count) { omp_set_num_threads(count); }
 
 }  // namespace slagflow

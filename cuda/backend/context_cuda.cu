@@ -204,6 +204,13 @@ std::string missing_for_loops() {
   return missing_for_loops(CUDART_VERSION, driver);
 }
 
+void use_device_of_rank(int local_rank) {
+  load_all_kernels_at_the_start();
+  int devices = 0;
+  check(cudaGetDeviceCount(&devices), "no usable GPU");
+  check(cudaSetDevice(device_of_rank(local_rank, devices)), "the rank's GPU");
+}
+
 void set_threads(int) {}
 
 }  // namespace slagflow

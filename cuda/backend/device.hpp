@@ -41,6 +41,13 @@ std::string missing_for_loops();
 // Throws Error when a CUDA build finds no usable GPU.
 DeviceInfo device_info();
 
+// Which of a machine's GPUs a rank takes, by its number among those of the machine; 0 where there are none.
+// (The runtime counts those that CUDA_VISIBLE_DEVICES leaves.)
+inline int device_of_rank(int local_rank, int devices) { return devices > 0 ? local_rank % devices : 0; }
+// Takes it; before all else that asks the device. No effect in a CPU build. Throws Error when it cannot be
+// had.
+void use_device_of_rank(int local_rank);
+
 // Sets the number of OpenMP threads of a CPU build; no effect on a GPU.
 void set_threads(int count);
 

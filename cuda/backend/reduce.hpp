@@ -130,6 +130,90 @@ __global__ void run_reduction(Body body, Rows n, Finish finish, volatile double*
   if (threadIdx.x == 0) finish(own);
 }
 
+// With several ranks: what a chunk gives, what the chunks of a plane give, and what is done with that of all
+// ranks. Where the body is idle, `idle` tells so.
+template <class Reduction, class Body>
+__global__ void reduce_chunks(Body body, Rows n, double* partial, std::int32_t* idle) {
+  if (blockIdx.x == 0 && threadIdx.x == 0) *idle = is_idle(body) ? 1 : 0;
+  const Offset chunk = blockIdx.x;
+  if (chunk >= n.chunks() || is_idle(body)) return;
+  const RowRange rows = n.chunk(chunk);
+  Terms<Body::terms> own = nothing<Reduction, Body::terms>();
+  const Index i = rows.first + static_cast<Index>(threadIdx.x);
+  if (i < rows.end) own = body(i);
+  own = across_block<Reduction>(own);
+  for (int k = 0; threadIdx.x == 0 && k < Body::terms; ++k) partial[chunk * Body::terms + k] = own.value[k];
+}
+
+template <class Reduction, int count>
+__global__ void reduce_planes(Rows n, const double* partial, double* sums) {
+  const auto plane = static_cast<Index>(blockIdx.x), lane = static_cast<Index>(threadIdx.x);
+  Terms<count> own = nothing<Reduction, count>();
+  const Offset end = n.first_chunk(plane + 1);
+  for (Offset chunk = n.first_chunk(plane) + lane; chunk < end; chunk += plane_lanes)
+    for (int k = 0; k < count; ++k)
+      own.value[k] = Reduction::combine(own.value[k], partial[chunk * count + k]);
+  for (int k = 0; k < count; ++k) {
+    constexpr unsigned lanes = (1u << plane_lanes) - 1;
+    for (unsigned step = plane_lanes / 2; step > 0; step /= 2)
+      own.value[k] = Reduction::combine(own.value[k], __shfl_down_sync(lanes, own.value[k], step));
+    if (lane == 0) sums[static_cast<Offset>(plane) * count + k] = own.value[k];
+  }
+}
+
+template <class Finish, int count>
+__global__ void finish_with(Finish finish, Terms<count> all) {
+  finish(all);
+}
+
+template <class Reduction, int count>
+Terms<count> of_all_ranks(const Halo& halo, const std::vector<double>& own) {
+  Terms<count> all{};
+  if constexpr (std::is_same_v<Reduction, AddUp>) {
+    const std::vector<double> planes = gather_planes(halo, own, count);
+    for (std::size_t at = 0; at < planes.size(); ++at) all.value[at % count] += planes[at];
+  } else {
+    for (double& value : all.value) value = Reduction::start;
+    for (std::size_t at = 0; at < own.size(); ++at)
+      all.value[at % count] = Reduction::combine(all.value[at % count], own[at]);
+    ranks().take_largest(all.value, count);
+  }
+  return all;
+}
+
+// Waits: sums of other ranks come by way of the host.
+template <class Reduction, class Body, class Finish>
+void reduce_together(Context& context, const char* label, const Rows& rows, const Body& body,
+                     const Finish& finish) {
+  constexpr int count = Body::terms;
+  const Rows n = to_launch(context, rows);
+  auto* const stream = static_cast<cudaStream_t>(context.stream());
+  const auto chunks = static_cast<std::size_t>(n.most_chunks(n.now)),
+             planes = static_cast<std::size_t>(n.planes.count) + 1;
+  constexpr std::size_t each = count * sizeof(double);
+  auto* memory = static_cast<std::byte*>(context.workspace((chunks + planes) * each + sizeof(std::int32_t)));
+  auto *partial = reinterpret_cast<double*>(memory), *sums = partial + chunks * count;
+  auto* flag = reinterpret_cast<std::int32_t*>(sums + planes * count);
+  context.count_launch();
+  reduce_chunks<Reduction> < < <chunks> 0 ? static_cast<unsigned>(chunks) : 1, block_threads, 0,
+      stream >>> (body, n, partial, flag);
+  check(cudaGetLastError(), label);
+  context.count_launch();
+  reduce_planes<Reduction, count>
+      <<<static_cast<unsigned>(planes), plane_lanes, 0, stream>>>(n, partial, sums);
+  check(cudaGetLastError(), label);
+  std::vector<std::byte> host(planes * each + sizeof(std::int32_t));
+  context.copy_to_host(host.data(), sums, host.size());
+  std::int32_t idle = 0;
+  std::memcpy(&idle, host.data() + planes * each, sizeof idle);
+  if (idle) return;
+  std::vector<double> own(planes * count);
+  std::memcpy(own.data(), host.data(), planes * each);
+  context.count_launch();
+  finish_with<<<1, 1, 0, stream>>>(finish, of_all_ranks<Reduction, count>(*rows.halo, own));
+  check(cudaGetLastError(), label);
+}
+
 // Of a reduction over so many of the rows.
 inline unsigned reduction_blocks(const Rows& n, Index count) {
   const Offset most = n.most_chunks(count);
@@ -149,6 +233,7 @@ inline void reserve_reductions(Context& context, const Rows& n, int terms) {
 template <class Reduction, class Body, class Finish>
 void launch_reduction(Context& context, const char* label, Rows rows, const Body& body,
                       const Finish& finish) {
+  if (rows.halo) return reduce_together<Reduction>(context, label, rows, body, finish);
   const Rows n = to_launch(context, rows);
   const unsigned blocks = reduction_blocks(n, n.now);
   auto* partial =
@@ -202,8 +287,8 @@ inline double add_up_plane(const Rows& n, Index plane, const double* partial) {
   return lanes[0];
 }
 
-// Of each term a sum a plane, and one of what is behind them. Those of all ranks are added in the order of the
-// planes, so that the sum does not depend on how they are dealt out.
+// Of each term a sum a plane, and one of what is behind them. Those of all ranks are added in the order of
+// the planes, so that the sum does not depend on how they are dealt out.
 template <int count>
 Terms<count> add_up_planes(const Rows& n, const double* partial, Offset chunks) {
   const Index sums = n.planes.count + 1;

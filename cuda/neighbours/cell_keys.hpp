@@ -10,8 +10,8 @@ namespace slagflow {
 // Behind every cell, and those behind what goes to another rank.
 constexpr std::uint64_t leaving_key = std::uint64_t(1) << 63, departed_key = leaving_key | leaving_key >> 1;
 
-// Sort key: cell in the upper, id in the lower 32 bits; of a particle in another slab its rank in place of the
-// cell.
+// Sort key: cell in the upper, id in the lower 32 bits; of a particle in another slab its rank in place of
+// the cell.
 struct CellKey {
   CellGrid grid;
   Span<const int> cuts;  // the first planes of the ranks; empty: there is one rank

@@ -49,7 +49,8 @@ class ListAge {
 
   template <class Visitor>
   void save(Visitor& v) {
-    v.as_many("list_opened", opened_), v.of_cells("list_wear", wear_), v.of_cells("wall_list_wear", wall_wear_);
+    v.as_many("list_opened", opened_), v.of_cells("list_wear", wear_),
+        v.of_cells("wall_list_wear", wall_wear_);
   }
   // After save(): the places of the last look, those of now unless there was none.
   void restore(const SourceView& fluid, const SourceView& walls);

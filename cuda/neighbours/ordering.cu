@@ -1,8 +1,8 @@
 #include <type_traits>
 
 #include "backend/launch.hpp"
-#include "neighbours/ordering.hpp"
 #include "neighbours/cell_keys.hpp"
+#include "neighbours/ordering.hpp"
 
 namespace slagflow {
 
@@ -39,8 +39,7 @@ struct FluidKey {
     place[i] = rounded;
     exit[i] = face;
     order[i] = i;
-    key[i] =
-        face == inside ? of_cell(xyz(rounded), id[i]) : departed_key | static_cast<std::uint32_t>(id[i]);
+    key[i] = face == inside ? of_cell(xyz(rounded), id[i]) : departed_key | static_cast<std::uint32_t>(id[i]);
   }
 };
 
@@ -178,7 +177,8 @@ void Ordering::sort(WallArrays& w) {
   w.resize(n);
   key_.resize(n), order_.resize(n), flag_.resize(n);
   launch(context_, "wall cell keys", n,
-         WallKey{{{grid_, cuts_.span()}, w.place.span(), w.id.span(), key_.span(), order_.span()}, flag_.span()});
+         WallKey{{{grid_, cuts_.span()}, w.place.span(), w.id.span(), key_.span(), order_.span()},
+                 flag_.span()});
   const auto left = n - static_cast<Index>(sum(context_, flag_.span()));
   sort_keys(n);
   reorder(w, n);

@@ -8,8 +8,8 @@
 #include "backend/primitives.hpp"
 #include "fluid/openings.hpp"
 #include "fluid/particles.hpp"
-#include "ranks/migration.hpp"
 #include "neighbours/cells.hpp"
+#include "ranks/migration.hpp"
 
 namespace slagflow {
 
@@ -41,18 +41,18 @@ class Ordering {
   // Finds the cells of particles that are in order already.
   void find_cells(FluidArrays&);
 
-  // With several ranks: deals all particles of the start, with these places in the domain, out by their number in
-  // each plane; sort() then keeps those of its slab.
+  // With several ranks: deals all particles of the start, with these places in the domain, out by their
+  // number in each plane; sort() then keeps those of its slab.
   void deal_out(const std::vector<Vec3d>& fluid, const std::vector<Vec3d>& walls);
-  // The same of fluid that is in order already, by its places then: how much of it is this rank's, and at the ends of
-  // its slab.
+  // The same of fluid that is in order already, by its places then: how much of it is this rank's, and at the
+  // ends of its slab.
   struct Dealt {
     Index own = 0;
     Borders borders;
   };
   Dealt deal_out(const std::vector<Quad>& places);
-  // Before the sorts of a build: moves the cuts between the ranks to where each has as many particles. Whether any
-  // has moved.
+  // Before the sorts of a build: moves the cuts between the ranks to where each has as many particles.
+  // Whether any has moved.
   bool balance();
   const Slabs& slabs() const { return slabs_; }
 
@@ -70,8 +70,8 @@ class Ordering {
   void reorder(const ParticleArrays&, Index count);
   Index drop(const FluidArrays&, DepartureCounts& departed, bool dealt);
   void put_in_planes(FluidArrays&);
-  // Of `count` sorted rows those of other ranks go there, at the end; or, at the start, are there already. Finds
-  // the cells of those that are left.
+  // Of `count` sorted rows those of other ranks go there, at the end; or, at the start, are there already.
+  // Finds the cells of those that are left.
   template <class Arrays>
   void deal_out(Arrays&, CellRanges&, Index count, bool dealt);
   template <class Arrays>

@@ -100,7 +100,11 @@ struct ImpulseTerm {
 }  // namespace
 
 WallForces::WallForces(Context& c)
-    : context_(c), impulse_(c, "wall impulses"), all_(c, "wall impulses"), body_(c, "walls of wall impulses"), scratch_(c) {}
+    : context_(c),
+      impulse_(c, "wall impulses"),
+      all_(c, "wall impulses"),
+      body_(c, "walls of wall impulses"),
+      scratch_(c) {}
 
 void WallForces::start(const std::vector<std::uint8_t>& body) {
   impulse_.upload(std::vector<Impulse>(body.size()));

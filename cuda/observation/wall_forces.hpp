@@ -36,8 +36,8 @@ class WallForces {
   // the particles move.
   void add(const PairContext&, const ListView& list, const WallArrays&, const WallForceStep&);
 
-  // With several ranks the impulse of a wall particle is with the one that has it, in the rows `now`; those that went,
-  // of the ids `before`, go along. A call of all ranks.
+  // With several ranks the impulse of a wall particle is with the one that has it, in the rows `now`; those
+  // that went, of the ids `before`, go along. A call of all ranks.
   void follow(const std::vector<Index>& before, const std::vector<Index>& now);
 
   // Since the start; torques about the lower corner of the domain.

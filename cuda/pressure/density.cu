@@ -262,7 +262,7 @@ void update_density(Context& context, const PairContext& c, FluidArrays& fluid, 
                           fluid.packing.span(), fluid.place.span(), fluid.motion.span(), fluid.state.span(),
                           fluid.melt.span(), fluid.pressure.span(), fluid.hollow.span()});
   exchange(context, fluid.count, fluid.place, fluid.motion, fluid.state, fluid.pressure, fluid.contact,
-           fluid.hollow);
+           fluid.hollow, fluid.shear_rate);
 }
 
 }  // namespace slagflow

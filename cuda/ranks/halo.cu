@@ -1,7 +1,7 @@
-#include "ranks/halo.hpp"
-
 #include <cstring>
 #include <vector>
+
+#include "ranks/halo.hpp"
 
 namespace slagflow {
 
@@ -14,7 +14,8 @@ struct Border {
 // A message of some fields' rows, one field behind the other.
 class Parcel {
  public:
-  Parcel(Context& context, const HaloField* fields, int count) : context_(context), fields_(fields), count_(count) {}
+  Parcel(Context& context, const HaloField* fields, int count)
+      : context_(context), fields_(fields), count_(count) {}
 
   void take(const Border& rows) {
     for_fields(rows, [&](std::byte* here, void* there, std::size_t bytes) {
@@ -62,13 +63,9 @@ void exchange(Context& context, const Halo& h, const HaloField* fields, int coun
   from_above.make_room(above), from_below.make_room(below);
   to_above.take(top), to_below.take(bottom);
   const auto message = [](int rank, Parcel& send, int send_tag, Parcel& receive, int receive_tag) {
-    return Message{rank,
-                   send.bytes().data(),
-                   send.bytes().size(),
-                   receive.bytes().data(),
-                   receive.bytes().size(),
-                   send_tag,
-                   receive_tag};
+    return Message{
+        rank,     send.bytes().data(), send.bytes().size(), receive.bytes().data(), receive.bytes().size(),
+        send_tag, receive_tag};
   };
   ranks().exchange({message(h.rank_above, to_above, upwards, from_above, downwards),
                     message(h.rank_below, to_below, downwards, from_below, upwards)});

@@ -73,8 +73,8 @@ void exchange_unless(Context& context, const Rows& rows, std::initializer_list<c
   exchange(context, rows, values...);
 }
 
-// Of an array that all ranks have, each gives what it has made, `count` elements from `first` on, in the order of the
-// ranks.
+// Of an array that all ranks have, each gives what it has made, `count` elements from `first` on, in the
+// order of the ranks.
 void gather_parts(Context&, void* data, std::size_t first, std::size_t bytes);
 template <class T>
 void gather_parts(Context& context, Buffer<T>& values, Offset first, Offset count) {
@@ -82,8 +82,8 @@ void gather_parts(Context& context, Buffer<T>& values, Offset first, Offset coun
                static_cast<std::size_t>(count) * sizeof(T));
 }
 
-// What each rank has of its planes, so many numbers of a plane and of what is behind them, for all planes: those of
-// the first rank, ...
+// What each rank has of its planes, so many numbers of a plane and of what is behind them, for all planes:
+// those of the first rank, ...
 std::vector<double> gather_planes(const Halo&, const std::vector<double>& own, int numbers);
 
 }  // namespace slagflow

@@ -1,6 +1,6 @@
-#include "ranks/migration.hpp"
-
 #include <cstring>
+
+#include "ranks/migration.hpp"
 
 namespace slagflow {
 
@@ -10,9 +10,8 @@ using Bytes = std::vector<std::byte>;
 
 std::size_t bytes_of_row(const ParticleArrays& arrays) {
   std::size_t bytes = 0;
-  arrays.each(Fate::sorted, [&](const auto& array) {
-    bytes += sizeof(typename std::decay_t<decltype(array)>::Element);
-  });
+  arrays.each(Fate::sorted,
+              [&](const auto& array) { bytes += sizeof(typename std::decay_t<decltype(array)>::Element); });
   return bytes;
 }
 

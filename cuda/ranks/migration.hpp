@@ -7,12 +7,12 @@
 
 namespace slagflow {
 
-// The rows behind the first `kept` go, so many to each rank, in the order of the ranks; what comes takes their
-// place. All arrays that are sorted. Returns how many rows there are then. A call of all ranks.
+// The rows behind the first `kept` go, so many to each rank, in the order of the ranks; what comes takes
+// their place. All arrays that are sorted. Returns how many rows there are then. A call of all ranks.
 Index migrate(ParticleArrays&, Index kept, const std::vector<Index>& leaving);
 
-// The rows that the neighbours want, and those of theirs that are wanted here: `border` rows of its own at the
-// lower end and at the upper end. A call of all ranks.
+// The rows that the neighbours want, and those of theirs that are wanted here: `border` rows of its own at
+// the lower end and at the upper end. A call of all ranks.
 struct Borders {
   Index to_below = 0, to_above = 0;
 };

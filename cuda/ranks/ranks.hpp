@@ -1,5 +1,5 @@
-// The processes that share a run, each with its part of the particles: what they tell each other. Without MPI,
-// or without a launcher, there is one, and all of this costs nothing. Every call is one of all ranks.
+// The processes that share a run, each with its part of the particles: what they tell each other. Without
+// MPI, or without a launcher, there is one, and all of this costs nothing. Every call is one of all ranks.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ class Ranks {
  public:
   static Ranks& world();
 
-  // Starts MPI where a launcher tells of more than one rank. From then on only the first writes to stdout and stderr.
-  // Throws InputError where the program was built without MPI.
+  // Starts MPI where a launcher tells of more than one rank. From then on only the first writes to stdout and
+  // stderr. Throws InputError where the program was built without MPI.
   void start(int& argc, char**& argv);
   void end();
   // Ends all ranks at once, of which not all know why: says so on stderr.

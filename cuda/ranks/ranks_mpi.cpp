@@ -95,7 +95,7 @@ void Ranks::end() {
 }
 
 void Ranks::abort(int exit_code, const std::string& reason) {
-  if (!first()) dprintf(stderr_, "error: rank %d: %s\n", rank_, reason.c_str());
+  dprintf(stderr_, "error: rank %d: %s\n", rank_, reason.c_str());
   if (started_) MPI_Abort(MPI_COMM_WORLD, exit_code);
   std::_Exit(exit_code);
 }

@@ -14,8 +14,9 @@ Ranks& Ranks::world() {
 
 void Ranks::start(int&, char**&) {
   if (launched_with_others())
-    throw InputError("this program was built without MPI, and cannot share a run with the others that were "
-                     "started: build with a preset of MPI, as cpu-mpi");
+    throw InputError(
+        "this program was built without MPI, and cannot share a run with the others that were "
+        "started: build with a preset of MPI, as cpu-mpi");
 }
 void Ranks::end() {}
 void Ranks::abort(int exit_code, const std::string&) { std::_Exit(exit_code); }

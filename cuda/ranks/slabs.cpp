@@ -50,7 +50,8 @@ double Slabs::heaviest_over_mean(const std::vector<std::int64_t>& weight) const 
   return all > 0 ? static_cast<double>(heaviest) * ranks() / static_cast<double>(all) : 1;
 }
 
-// Each where the sum of the weights below comes nearest to its share, with the least number of planes between.
+// Each where the sum of the weights below comes nearest to its share, with the least number of planes
+// between.
 void Slabs::cut(const std::vector<std::int64_t>& weight) {
   std::vector<std::int64_t> below(weight.size() + 1);
   std::partial_sum(weight.begin(), weight.end(), below.begin() + 1);

@@ -1,5 +1,5 @@
-// How the cells of a grid are dealt out to ranks: slabs of whole planes across the slowest axis, and the planes
-// around each that it must know.
+// How the cells of a grid are dealt out to ranks: slabs of whole planes across the slowest axis, and the
+// planes around each that it must know.
 #pragma once
 
 #include <cstddef>

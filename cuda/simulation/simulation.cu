@@ -95,7 +95,7 @@ Simulation::State::State(const SimulationSetup& s)
       step_graph(context, "steps"),
       yielded(context, "yielded"),
       side_stream(context) {
-  if (setup.time_parts) step_graph.launch_singly();
+  if (setup.time_parts || ranks().several()) step_graph.launch_singly();
   if (setup.numerics.weights == StoredWeights::brief)
     viscous.shorten_weights(short_weight_unit(middle_weight(setup)));
   departed.resize(s.fluids.size());
@@ -113,17 +113,6 @@ Simulation::State::State(const SimulationSetup& s)
   extrapolate_wall_pressure(context, pairs(), wall_to_fluid.view(), wall);
   update_density(context, pairs(), fluid, scratch, 0);  // viscosity and shear rate of the start
   watch.begin(fluid, fluids.span(), diagnostics);
-}
-
-// The ranks begin with all particles each, and keep theirs at the first sort.
-void Simulation::State::deal_out() {
-  if (!ranks().several()) return;
-  const auto places = [&](const std::vector<Vec3d>& positions) {
-    std::vector<Vec3d> result;
-    for (const Vec3d& x : positions) result.push_back(x - setup.domain.lower);
-    return result;
-  };
-  ordering.deal_out(places(setup.particles.position), places(setup.walls.position));
 }
 
 void Simulation::State::upload_fluid() {
@@ -169,18 +158,6 @@ void Simulation::State::upload_walls() {
   setup.walls.normal = setup.walls.back_normal = {};
   setup.walls.depth = setup.walls.back_depth = {};
   ordering.sort(wall);
-}
-
-void Simulation::State::sort_walls() {
-  const bool follow = wall.count.halo && knows_wall_forces();
-  std::vector<Index> before, now;
-  const auto own_ids = [&](std::vector<Index>& ids) {
-    if (follow) wall.id.download(ids), ids.resize(static_cast<std::size_t>(wall.count.now));
-  };
-  own_ids(before);
-  ordering.sort(wall);
-  own_ids(now);
-  if (follow) wall_forces.follow(before, now);
 }
 
 void Simulation::State::rebuild() {

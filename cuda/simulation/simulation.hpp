@@ -144,8 +144,10 @@ class Simulation {
   // [s] over which the last step changed the velocities: they are those of half a step before time().
   double velocity_time_step() const;
   std::int64_t steps() const;
-  std::int64_t particles() const;        // fluid, in the domain as of the last build of the lists
-  std::vector<Vec3d> positions() const;  // [m] of the fluid, in no order
+  std::int64_t particles() const;          // fluid, in the domain as of the last build of the lists
+  std::int64_t particles_of_rank() const;  // of those
+  // [m] of the fluid, in no order; with several ranks on the first
+  std::vector<Vec3d> positions() const;
   Totals totals();
   // Where fluid particles are that may be inside walls, and may be beside an edge (penetration.hpp) [m].
   std::vector<Vec3d> below_wall_faces();

@@ -35,8 +35,8 @@ struct FlagYielded {
 struct StateTransfer::Data {
   SideCopy copy;
   std::vector<SideCopy::Part> parts;
-  std::vector<const void*> buffers;               // whose contents the parts are
-  std::vector<std::vector<std::byte>> together;   // with several ranks: those of all, in place of the copy
+  std::vector<const void*> buffers;              // whose contents the parts are
+  std::vector<std::vector<std::byte>> together;  // with several ranks: those of all, in place of the copy
   On where = On::first_rank;
   const Simulation::State* of = nullptr;          // null: nothing is under way
   double time = 0, flow_time = 0, list_time = 0;  // walls and inlets go by that of the flow

@@ -29,7 +29,8 @@ SolveResult Simulation::State::finish_solve(const StepRecord& now) {
   const SolveResult result = viscous.finish(now, pairs(), row_cells(), solve_step, fluid);
   report.iterations = result.iterations;
   report.residual = result.right_hand_side > 0 ? result.residual / result.right_hand_side : 0;
-  report.velocity_error = result.residual / (solve_step.mass * std::sqrt(static_cast<double>(fluid.count.of_all())));
+  report.velocity_error =
+      result.residual / (solve_step.mass * std::sqrt(static_cast<double>(fluid.count.of_all())));
   report.converged = result.converged;
   solver.iterations += result.iterations;
   solver.max_iterations = larger(solver.max_iterations, result.iterations);

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <vector>
 
+#include "backend/device.hpp"
 #include "backend/error.hpp"
 #include "host/case/case.hpp"
 #include "host/case/case_table.hpp"
@@ -29,8 +30,8 @@
 #include "host/run/check.hpp"
 #include "host/run/progress.hpp"
 #include "host/run/run.hpp"
-#include "version.hpp"
 #include "ranks/ranks.hpp"
+#include "version.hpp"
 
 namespace slagflow {
 namespace {
@@ -311,9 +312,12 @@ int run_program(int argc, const char* const* argv) {
 int run_with_others(int argc, char** argv) {
   try {
     ranks().start(argc, argv);
+    if (ranks().several()) use_device_of_rank(ranks().local_rank());
   } catch (const InputError& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 2;
+  } catch (const std::exception& error) {
+    ranks().abort(1, error.what());
   }
   const int status = run_program(argc, argv);
   ranks().end();

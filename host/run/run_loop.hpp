@@ -83,6 +83,9 @@ class Run {
   ProgressState progress() const;
 
   using Clock = std::chrono::steady_clock;
+  static double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+  }
 
   InterruptGuard& signals_;
   BuiltCase built_;

@@ -1,7 +1,7 @@
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
-#include "viscosity/solvers/aggregates.hpp"
 #include "ranks/halo.hpp"
+#include "viscosity/solvers/aggregates.hpp"
 
 namespace slagflow {
 

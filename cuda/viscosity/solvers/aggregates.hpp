@@ -112,8 +112,7 @@ class Aggregates {
   void find(const AggregateView& finer);
 
   AggregateView view() const {
-    return {grid_,        count_,        first_own_,     own_,
-            cell_.span(), steps_.span(), number_.span(), neighbour_.span()};
+    return {grid_, count_, first_own_, own_, cell_.span(), steps_.span(), number_.span(), neighbour_.span()};
   }
 
  private:

@@ -1,6 +1,6 @@
 #include "backend/launch.hpp"
-#include "viscosity/solvers/coarse_matrix.hpp"
 #include "ranks/halo.hpp"
+#include "viscosity/solvers/coarse_matrix.hpp"
 
 namespace slagflow {
 
