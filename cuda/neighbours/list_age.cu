@@ -133,14 +133,17 @@ ListAge::ListAge(Context& context, Renewal renewal)
 void ListAge::begin(const SourceView& fluid, const SourceView& walls) {
   const Index cells = fluid.grid.cells();
   opened_.upload({0});
-  displacement_.resize(with_room(cells));
-  wear_.resize(cells), wall_wear_.resize(cells), worn_.resize(cells), walls_worn_.resize(cells);
+  wear_.resize(cells), wall_wear_.resize(cells);
   slagflow::launch(context_, "no wear", cells, NoWear{wear_.span(), wall_wear_.span()});
   restore(fluid, walls);
 }
 
 void ListAge::restore(const SourceView& fluid, const SourceView& walls) {
+  const Index cells = fluid.grid.cells();
   own_cells_ = fluid.grid.own_cells();
+  displacement_.resize(with_room(cells)), worn_.resize(cells), walls_worn_.resize(cells);
+  wear_.reserve(cells), wall_wear_.reserve(cells);  // of which a restored state has the rank's own
+  wear_.resize(cells), wall_wear_.resize(cells);
   const auto keep = [&](Buffer<Quad>& before, Span<const Quad> places) {
     before.resize(places.size);
     context_.copy_on_device(before.span().data, places.data,

@@ -105,10 +105,7 @@ class Restorer {
   }
   template <class T>
   void of_cells(const char* name, Buffer<T>& buffer) {
-    const Offset size = buffer.size();  // those of other ranks count for nothing
     own_part(name, buffer, rows.cells);
-    buffer.reserve(size);
-    buffer.resize(size);
   }
   template <class T>
   void of_rows(const char* name, std::vector<T>& host) const {

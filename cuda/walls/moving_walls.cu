@@ -103,6 +103,7 @@ void MovingWalls::upload(const SimulationSetup& setup, WallArrays& wall) {
   wall.tension_limit.upload(tension_limits(setup));
   body_.upload(w.body);
   if (!any_) return;
+  wall.acceleration.use(), wall.moved.use();  // by all ranks, those without walls too
   wall.acceleration.upload(std::vector<Quad>(n)), wall.moved.upload(std::vector<Quad>(n));
   position_.upload(position), normal_.upload(normal), back_.upload(back), velocity_.upload(velocity);
 }
