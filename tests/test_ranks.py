@@ -118,10 +118,12 @@ class Ranks(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def program(self, ranks, *words, cuts=None, program=PROGRAM):
+    def program(self, ranks, *words, cuts=None, program=PROGRAM, poison=False):
         environment = dict(os.environ, OMP_NUM_THREADS="1")
         if cuts is not None:
             environment["SLAGFLOW_RANDOM_CUTS"] = str(cuts)
+        if poison:
+            environment["SLAGFLOW_POISON_HALOS"] = "1"
         return subprocess.run([*arguments(program, ranks), *map(str, words)], env=environment, text=True,
                               capture_output=True, timeout=250, check=False)
 
@@ -130,9 +132,9 @@ class Ranks(unittest.TestCase):
         path.write_text(text)
         return path
 
-    def runs(self, ranks, case, *words, cuts=None):
+    def runs(self, ranks, case, *words, **how):
         out = self.folder / f"{len(list(self.folder.iterdir()))}"
-        done = self.program(ranks, "run", case, "-o", out, "--quiet", *words, cuts=cuts)
+        done = self.program(ranks, "run", case, "-o", out, "--quiet", *words, **how)
         self.assertEqual(done.returncode, 0, done.stderr)
         return out
 
@@ -140,10 +142,10 @@ class Ranks(unittest.TestCase):
         found = [line for line in compare.differences(one, other) if "run/resumes" not in line]
         self.assertEqual(found, [])
 
-    def assert_same_on(self, numbers, case, *words, cuts=None):
+    def assert_same_on(self, numbers, case, *words, **how):
         alone = self.runs(1, case, *words)
         for ranks in numbers:
-            self.assert_same(alone, self.runs(ranks, case, *words, cuts=cuts))
+            self.assert_same(alone, self.runs(ranks, case, *words, **how))
         return alone
 
     def test_a_jet_that_leaves(self):
@@ -161,6 +163,16 @@ class Ranks(unittest.TestCase):
     def test_cuts_at_random(self):
         self.assert_same_on((3,), self.case(PLATE), cuts=1)
         self.assert_same_on((2, 4), self.case(TABLE), "--set", "output.end_time=0.06", cuts=7)
+
+    def test_copies_that_are_old_are_not_read(self):
+        self.assert_same_on((3,), self.case(PLATE), "--set", "output.end_time=0.01", cuts=2, poison=True)
+        case = CASES / "verification" / "drop.toml"
+        self.assert_same_on((2,), case, "--set", "output.end_time=0.002", poison=True)
+
+    def test_inlets_and_outlets(self):
+        alone = self.assert_same_on((2, 3), CASES / "verification" / "fed_channel.toml", "--set", "output.end_time=0.1",
+                                    cuts=4)
+        self.assertGreater(json.loads((alone / "summary.json").read_text())["mass_fed"], 0)
 
     def test_surface_tension(self):
         self.assert_same_on((2,), CASES / "verification" / "drop.toml", "--set", "output.end_time=0.005")
@@ -202,7 +214,8 @@ class Ranks(unittest.TestCase):
         for key, value in (("numerics.yield", "exact"), ("numerics.solver", "sor")):
             done = self.program(2, "run", self.case(TABLE), "-o", out, "--set", f"{key}={value}")
             self.assert_refused(done, key, value, "several ranks", "allowed")
-        done = self.program(8, "run", self.case(TABLE), "-o", out, "--set", "resolution.spacing=8e-3")
+        done = self.program(6, "run", self.case(TABLE), "-o", out, "--set", "domain.max=[0.042, 0.016, 0.032]", "--set",
+                            "domain.min=[-0.01, 0, -0.012]")
         self.assert_refused(done, "ranks", "at most")
         self.assertFalse(out.exists())
 

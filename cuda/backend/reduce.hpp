@@ -4,9 +4,9 @@
 // the planes, and an empty one changes nothing.
 #pragma once
 
+#include "backend/halo.hpp"
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
-#include "ranks/halo.hpp"
 
 namespace slagflow {
 

@@ -37,7 +37,7 @@ struct Rows {
   HOST_DEVICE Rows(Index count, Index most, const Index* on_device, Planes in = {})
       : now(count), room(most), live(on_device), planes(in) {}
   HOST_DEVICE operator Index() const { return now; }
-  Index of_all() const;  // of all ranks (ranks/halo.hpp)
+  Index of_all() const;  // of all ranks (halo.hpp)
 
   // Where a body needs it that may have been recorded.
   HOST_DEVICE Index on_device() const {

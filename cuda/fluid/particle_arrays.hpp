@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "backend/buffer.hpp"
+#include "backend/halo.hpp"
 #include "backend/plane_table.hpp"
 #include "fluid/math.hpp"
-#include "ranks/halo.hpp"
 
 namespace slagflow {
 

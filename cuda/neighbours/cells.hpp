@@ -4,9 +4,9 @@
 #include <array>
 
 #include "backend/buffer.hpp"
+#include "backend/slabs.hpp"
 #include "fluid/math.hpp"
 #include "fluid/params.hpp"
-#include "ranks/slabs.hpp"
 
 namespace slagflow {
 

@@ -119,13 +119,13 @@ void Ordering::reorder(const ParticleArrays& arrays, Index count) {
   });
 }
 
-Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed, bool dealt) {
+Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed) {
   auto count = [&](int face, int kind) {
     launch(context_, "exits", fluid.count,
            FlagDeparted{exit_.span(), fluid.fluid.span(), face, kind, flag_.span()});
     return static_cast<std::int64_t>(sum(context_, flag_.span()));
   };
-  auto of_all = [&](std::int64_t own) { return dealt ? ranks().added(own) : own; };
+  auto of_all = [&](std::int64_t own) { return fluid_dealt_ ? ranks().added(own) : own; };
   const std::int64_t own = count(-1, -1), all = of_all(own);
   if (all == 0) return fluid.count;
   for (std::size_t kind = 0; kind < departed.size(); ++kind) {
@@ -139,7 +139,6 @@ Index Ordering::drop(const FluidArrays& fluid, DepartureCounts& departed, bool d
 }
 
 void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
-  const bool dealt = f.count.halo != nullptr;
   const Index n = f.count;
   f.resize(n);
   key_.resize(n), order_.resize(n), exit_.resize(n), flag_.resize(n);
@@ -154,10 +153,10 @@ void Ordering::sort(FluidArrays& f, DepartureCounts& departed) {
                   key_.span(),
                   order_.span(),
                   exit_.span()});
-  const Index left = drop(f, departed, dealt);
+  const Index left = drop(f, departed);
   sort_keys(n);
   reorder(f, n);
-  deal_out(f, fluid_cells_, left, dealt);
+  deal_out(f, fluid_cells_, left, fluid_dealt_);
   put_in_planes(f);
 }
 
@@ -172,7 +171,6 @@ void Ordering::find_cells(FluidArrays& f) {
 }
 
 void Ordering::sort(WallArrays& w) {
-  const bool dealt = w.count.halo != nullptr;
   const Index n = w.count;
   w.resize(n);
   key_.resize(n), order_.resize(n), flag_.resize(n);
@@ -182,7 +180,7 @@ void Ordering::sort(WallArrays& w) {
   const auto left = n - static_cast<Index>(sum(context_, flag_.span()));
   sort_keys(n);
   reorder(w, n);
-  deal_out(w, wall_cells_, left, dealt);
+  deal_out(w, wall_cells_, left, walls_dealt_);
   w.put_in_planes({wall_cells_.start.span(), grid_.cells_of_plane(), grid_.planes()});
 }
 

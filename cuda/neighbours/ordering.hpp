@@ -6,10 +6,10 @@
 #include <tuple>
 
 #include "backend/primitives.hpp"
+#include "fluid/migration.hpp"
 #include "fluid/openings.hpp"
 #include "fluid/particles.hpp"
 #include "neighbours/cells.hpp"
-#include "ranks/migration.hpp"
 
 namespace slagflow {
 
@@ -68,12 +68,12 @@ class Ordering {
   void sort_keys(Index count);
   // All arrays as order_ says, of `count` particles.
   void reorder(const ParticleArrays&, Index count);
-  Index drop(const FluidArrays&, DepartureCounts& departed, bool dealt);
+  Index drop(const FluidArrays&, DepartureCounts& departed);
   void put_in_planes(FluidArrays&);
   // Of `count` sorted rows those of other ranks go there, at the end; or, at the start, are there already.
   // Finds the cells of those that are left.
   template <class Arrays>
-  void deal_out(Arrays&, CellRanges&, Index count, bool dealt);
+  void deal_out(Arrays&, CellRanges&, Index count, bool& dealt);
   template <class Arrays>
   void find_cells(Arrays&, CellRanges&);
   std::vector<Index> leaving_to(Index first, Index count);
@@ -88,7 +88,8 @@ class Ordering {
   Buffer<std::uint64_t> key_, spare_key_;
   Buffer<Index> order_, spare_order_;
   Buffer<OutletBox> outlets_;
-  Buffer<int> cuts_;  // empty: there is one rank
+  Buffer<int> cuts_;                                // empty: there is one rank
+  bool fluid_dealt_ = false, walls_dealt_ = false;  // else each rank has all of them
   Buffer<std::uint8_t> exit_;
   Buffer<double> flag_;
   // On a CPU: where reordered values go; it takes the place of the array that they come from.

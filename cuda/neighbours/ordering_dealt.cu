@@ -5,9 +5,9 @@
 
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
+#include "fluid/migration.hpp"
 #include "neighbours/cell_keys.hpp"
 #include "neighbours/ordering.hpp"
-#include "ranks/migration.hpp"
 
 namespace slagflow {
 
@@ -104,7 +104,7 @@ void Ordering::find_cells(Arrays& arrays, CellRanges& cells) {
 }
 
 template <class Arrays>
-void Ordering::deal_out(Arrays& arrays, CellRanges& cells, Index count, bool dealt) {
+void Ordering::deal_out(Arrays& arrays, CellRanges& cells, Index count, bool& dealt) {
   if (!ranks().several()) {
     arrays.resize(count);
     cells.find(context_, grid_, key_.span(), count);
@@ -136,6 +136,7 @@ void Ordering::deal_out(Arrays& arrays, CellRanges& cells, Index count, bool dea
   arrays.resize(meet_neighbours(slabs_, own, borders));
   exchange_all(arrays);
   find_cells(arrays, cells);
+  dealt = true;
 }
 
 std::vector<Index> Ordering::leaving_to(Index first, Index count) {
@@ -146,8 +147,8 @@ std::vector<Index> Ordering::leaving_to(Index first, Index count) {
   return result;
 }
 
-template void Ordering::deal_out(FluidArrays&, CellRanges&, Index, bool);
-template void Ordering::deal_out(WallArrays&, CellRanges&, Index, bool);
+template void Ordering::deal_out(FluidArrays&, CellRanges&, Index, bool&);
+template void Ordering::deal_out(WallArrays&, CellRanges&, Index, bool&);
 template void Ordering::find_cells(FluidArrays&, CellRanges&);
 
 }  // namespace slagflow

@@ -159,6 +159,18 @@ void WallForces::follow(const std::vector<Index>& before, const std::vector<Inde
   impulse_.upload(impulse);
 }
 
+void WallForces::keep(const std::vector<Index>& now) {
+  std::vector<Impulse> impulse;
+  impulse_.download(impulse);
+  std::vector<std::uint8_t> own(impulse.size());
+  for (const Index id : now) own[static_cast<std::size_t>(id)] = 1;
+  std::vector<std::uint8_t> anywhere = own;
+  ranks().join(anywhere.data(), anywhere.size());
+  for (std::size_t id = 0; id < impulse.size(); ++id)
+    if (own[id] == 0 && !(anywhere[id] == 0 && ranks().first())) impulse[id] = {};
+  impulse_.upload(impulse);
+}
+
 Span<const WallForces::Impulse> WallForces::of_all() {
   if (!ranks().several()) return impulse_.span();
   std::vector<Impulse> impulse;

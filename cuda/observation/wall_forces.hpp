@@ -39,6 +39,8 @@ class WallForces {
   // With several ranks the impulse of a wall particle is with the one that has it, in the rows `now`; those
   // that went, of the ids `before`, go along. A call of all ranks.
   void follow(const std::vector<Index>& before, const std::vector<Index>& now);
+  // The same once a state is restored, of which each rank has all.
+  void keep(const std::vector<Index>& now);
 
   // Since the start; torques about the lower corner of the domain.
   WallLoad load(std::size_t body);

@@ -159,7 +159,7 @@ void Inlets::place(const WallStep& step, WallArrays& wall) {
     now.push_back(m);
   }
   moment_.upload(now);
-  launch(context_, "place inlets", wall.count,
+  launch(context_, "place inlets", wall.local(),
          PlaceColumns{static_cast<Index>(first_wall_), static_cast<Index>(rows_),
                       static_cast<Index>(moving_rows_), 1 / step.dt, moment_.span(), inlet_.span(),
                       origin_.span(), share_.span(), retreat_.span(), wall.id.span(), wall.place.span(),
@@ -185,16 +185,28 @@ FedParticles Inlets::take_rows(double now, double last_dt) {
   return fed;
 }
 
+// Of the columns; each is where its foremost particle is.
+void Inlets::take_pressures(const WallArrays& wall) {
+  if (ranks().several()) pressure_.upload(std::vector<Real>(columns_.size()));
+  launch(context_, "pressures of inlets", wall.count,
+         TakePressure{static_cast<Index>(first_wall_), static_cast<Index>(rows_), wall.id.span(),
+                      wall.pressure.span(), pressure_.span()});
+  if (!ranks().several()) return;
+  std::vector<Real> pressure;
+  pressure_.download(pressure);
+  ranks().join(pressure.data(), pressure.size() * sizeof(Real));
+  pressure_.upload(pressure);
+}
+
 FedParticles Inlets::feed(const Feeding& at, const WallArrays& wall, Span<const FluidConstants> fluids,
                           const FlowConstants& flow, FluidArrays& fluid) {
   FedParticles fed = take_rows(at.now, at.last_dt);
   const auto count = static_cast<Index>(fed.column.size());
   if (count == 0) return fed;
   upload_rows();
+  take_pressures(wall);
+  if (!ranks().first()) return fed;  // from where they go to the rank that has their place
   const Index before = fluid.count;
-  launch(context_, "pressures of inlets", wall.count,
-         TakePressure{static_cast<Index>(first_wall_), static_cast<Index>(rows_), wall.id.span(),
-                      wall.pressure.span(), pressure_.span()});
   position_.upload(fed.position), motion_.upload(fed.motion);
   column_.upload(fed.column), kind_.upload(fed.fluid);
   fluid.resize(before + count);

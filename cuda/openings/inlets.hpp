@@ -80,6 +80,7 @@ class Inlets {
   // The rows that are due by then, which count as entered.
   FedParticles take_rows(double now, double last_dt);
   void upload_rows();
+  void take_pressures(const WallArrays&);
 
   Context& context_;
   std::vector<InletSetup> inlets_;

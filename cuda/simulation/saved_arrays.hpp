@@ -113,9 +113,7 @@ class Restorer {
   }
   template <class T>
   void of_one_rank_each(const char* name, Buffer<T>& buffer) {
-    as_many(name, buffer);
-    if (ranks().several() && !ranks().first())
-      buffer.upload(std::vector<T>(static_cast<std::size_t>(buffer.size())));
+    as_many(name, buffer);  // all of it on all ranks
   }
 
   template <class T>

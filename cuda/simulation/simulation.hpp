@@ -146,6 +146,7 @@ class Simulation {
   std::int64_t steps() const;
   std::int64_t particles() const;          // fluid, in the domain as of the last build of the lists
   std::int64_t particles_of_rank() const;  // of those
+  std::int64_t copies_of_rank() const;     // of particles that other ranks have
   // [m] of the fluid, in no order; with several ranks on the first
   std::vector<Vec3d> positions() const;
   Totals totals();

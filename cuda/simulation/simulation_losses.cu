@@ -7,6 +7,8 @@ std::int64_t Simulation::particles() const { return state_->fluid.count.of_all()
 
 std::int64_t Simulation::particles_of_rank() const { return state_->fluid.count; }
 
+std::int64_t Simulation::copies_of_rank() const { return state_->fluid.local() - state_->fluid.count; }
+
 std::vector<Vec3d> Simulation::positions() const {
   const State& s = *state_;
   std::vector<Vec3d> all = rows_of_all(s.fluid.position, s.fluid.count, On::first_rank);

@@ -1,4 +1,5 @@
 // What a simulation does with several ranks.
+#include "simulation/sharing.hpp"
 #include "simulation/simulation_state.hpp"
 
 namespace slagflow {
@@ -15,15 +16,17 @@ void Simulation::State::deal_out() {
 }
 
 void Simulation::State::sort_walls() {
-  const bool follow = wall.count.halo && knows_wall_forces();
-  std::vector<Index> before, now;
-  const auto own_ids = [&](std::vector<Index>& ids) {
-    if (follow) wall.id.download(ids), ids.resize(static_cast<std::size_t>(wall.count.now));
-  };
-  own_ids(before);
+  if (!wall.count.halo || !knows_wall_forces()) return ordering.sort(wall);
+  const std::vector<Index> before = own_walls();
   ordering.sort(wall);
-  own_ids(now);
-  if (follow) wall_forces.follow(before, now);
+  wall_forces.follow(before, own_walls());
+}
+
+std::vector<Index> Simulation::State::own_walls() const {
+  std::vector<Index> ids;
+  wall.id.download(ids);
+  ids.resize(static_cast<std::size_t>(wall.count.now));
+  return ids;
 }
 
 SavedRows Simulation::State::saved_rows(Index fluid_rows) const {
@@ -39,6 +42,7 @@ void Simulation::State::meet_neighbours(const Borders& borders) {
   list_places.resize(fluid.local());
   exchange(context, fluid.count, list_places);
   exchange(context, wall.count, wall.pressure);
+  if (knows_wall_forces()) wall_forces.keep(own_walls());
 }
 
 }  // namespace slagflow

@@ -91,6 +91,7 @@ struct Simulation::State {
   void upload_fluid();
   void upload_walls();
   void sort_walls();
+  std::vector<Index> own_walls() const;  // ids
   void rebuild();
   double largest_wall_displacement() const {
     return larger(walls.largest_displacement(list_time, time), inlets.largest_displacement(list_time, time));

@@ -86,6 +86,7 @@ void Simulation::State::reserve_step() {
 }
 
 void Simulation::State::launch_step() {
+  viscous.poison_halos(fluid);
   surface_tension.update(pairs(), wall.id.span());
   {
     Section timer(context, "density and shear rate");

@@ -64,7 +64,11 @@ class ViscousStep {
 
   ExactYield& exact_yield() { return yield_; }
   Span<const Quad> velocity() const { return velocity_.span(); }
-  // Of the copies of other ranks' particles.
+  // Of the copies of other ranks' particles: before a step, and once it is solved.
+  void poison_halos(FluidArrays& fluid) {
+    poison(context_, fluid.count, predicted_, velocity_, work_.direction, work_.residual, fluid.increment,
+           fluid.last_increment);
+  }
   void exchange_velocity(const Rows& rows) { exchange(context_, rows, velocity_); }
   // Of the step: u*, and w_ij of each entry of the fluid list [kg].
   Span<const Quad> predicted() const { return predicted_.span(); }

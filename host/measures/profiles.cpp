@@ -1,10 +1,10 @@
 #include "host/measures/profiles.hpp"
 
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "host/measures/measure_surface.hpp"
 #include "host/measures/measure_text.hpp"
 #include "host/output/checkpoint_store.hpp"
-#include "ranks/ranks.hpp"
 
 namespace slagflow {
 namespace {

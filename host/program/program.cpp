@@ -17,6 +17,7 @@
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "host/case/case.hpp"
 #include "host/case/case_table.hpp"
 #include "host/geometry/setup_builder.hpp"
@@ -30,7 +31,6 @@
 #include "host/run/check.hpp"
 #include "host/run/progress.hpp"
 #include "host/run/run.hpp"
-#include "ranks/ranks.hpp"
 #include "version.hpp"
 
 namespace slagflow {

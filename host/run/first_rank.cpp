@@ -5,7 +5,7 @@
 #include <string>
 
 #include "backend/error.hpp"
-#include "ranks/ranks.hpp"
+#include "backend/ranks.hpp"
 
 namespace slagflow {
 namespace {

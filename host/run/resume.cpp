@@ -8,6 +8,7 @@
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/first_rank.hpp"
@@ -18,6 +19,7 @@
 #include "host/run/run_loop.hpp"
 #include "host/run/run_options.hpp"
 #include "host/run/start_state.hpp"
+#include "simulation/sharing.hpp"
 
 namespace slagflow {
 namespace {
@@ -68,6 +70,7 @@ RunOutcome resume_run(const RunOptions& options) {
   require_loops(going.built.resolved);
   require_dealable(going.built.resolved);
   if (began_from_another(found.checkpoint)) start_from(read_start(folder), going.built);
+  if (ranks().several()) require_shareable(going.built.setup);
   require_outputs(folder, found.checkpoint.run, going.built.resolved);
 
   Log log(options.verbosity);

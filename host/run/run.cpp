@@ -7,6 +7,7 @@
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "host/geometry/setup_builder.hpp"
 #include "host/output/checkpoint_store.hpp"
 #include "host/run/check.hpp"
@@ -17,7 +18,7 @@
 #include "host/run/run_loop.hpp"
 #include "host/run/run_options.hpp"
 #include "host/run/start_state.hpp"
-#include "ranks/ranks.hpp"
+#include "simulation/sharing.hpp"
 
 namespace slagflow {
 namespace {
@@ -71,6 +72,7 @@ RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
     return build_setup(limited, progress.stage());
   }();
   if (start) take_state(*start, built);
+  if (ranks().several()) require_shareable(built.setup);
   built.setup.time_parts = options.time_parts;
   const double on_device = device_info().memory;
   require_memory(built, on_device > 0 ? on_device : available_memory());

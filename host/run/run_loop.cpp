@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "fluid/constants.hpp"
 #include "host/case/toml_reader.hpp"
 #include "host/run/first_rank.hpp"
 #include "host/run/rank_report.hpp"
 #include "host/run/run_folder.hpp"
-#include "ranks/ranks.hpp"
 
 namespace slagflow {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "backend/device.hpp"
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "host/case/case_changes.hpp"
 #include "host/case/case_rules.hpp"
 #include "host/case/toml_reader.hpp"
-#include "ranks/ranks.hpp"
 
 namespace slagflow {
 
@@ -32,7 +32,6 @@ void require_dealable(const Case& c) {
   if (c.numerics.solver_loop == SolverLoop::conditional)
     refuse("numerics.solver_loop", "\"conditional\"", "\"batch\"");
   if (c.thermal.on) refuse("thermal", "of a case with heat", "none, or one rank");
-  if (!c.inlets.empty()) refuse("inlet", "of a case with inlets", "none, or one rank");
 }
 
 // The end time of the case stays: the time steps before it are part of the flow.

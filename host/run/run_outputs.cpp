@@ -2,9 +2,9 @@
 #include <utility>
 
 #include "backend/error.hpp"
+#include "backend/ranks.hpp"
 #include "host/run/first_rank.hpp"
 #include "host/run/run_loop.hpp"
-#include "ranks/ranks.hpp"
 
 namespace slagflow {
 

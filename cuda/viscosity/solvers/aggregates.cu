@@ -1,6 +1,6 @@
+#include "backend/halo.hpp"
 #include "backend/launch.hpp"
 #include "backend/primitives.hpp"
-#include "ranks/halo.hpp"
 #include "viscosity/solvers/aggregates.hpp"
 
 namespace slagflow {

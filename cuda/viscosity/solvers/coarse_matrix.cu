@@ -1,5 +1,5 @@
+#include "backend/halo.hpp"
 #include "backend/launch.hpp"
-#include "ranks/halo.hpp"
 #include "viscosity/solvers/coarse_matrix.hpp"
 
 namespace slagflow {

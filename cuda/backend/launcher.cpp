@@ -1,7 +1,7 @@
 // What tells of a launcher.
 #include <cstdlib>
 
-#include "ranks/ranks.hpp"
+#include "backend/ranks.hpp"
 
 namespace slagflow {
 

@@ -6,7 +6,7 @@
 
 #include "backend/buffer.hpp"
 #include "backend/rows.hpp"
-#include "ranks/slabs.hpp"
+#include "backend/slabs.hpp"
 
 namespace slagflow {
 
@@ -54,6 +54,16 @@ void exchange(Context& context, const Rows& rows, Buffer<T>&... values) {
   if (!rows.halo) return;
   const std::array<HaloField, sizeof...(T)> fields{HaloField{values.span().data, sizeof(T)}...};
   exchange(context, *rows.halo, fields.data(), static_cast<int>(fields.size()));
+}
+
+// For tests, with SLAGFLOW_POISON_HALOS in the environment: what must not be read before the next exchange
+// becomes not-a-number.
+bool halos_are_poisoned();
+void poison(Context&, const Halo&, const HaloField&);
+template <class... T>
+void poison(Context& context, const Rows& rows, Buffer<T>&... values) {
+  if (rows.halo && halos_are_poisoned())
+    (poison(context, *rows.halo, HaloField{values.span().data, sizeof(T)}), ...);
 }
 
 // Whether a loop steered by this number on the device goes on.

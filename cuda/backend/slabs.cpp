@@ -1,4 +1,4 @@
-#include "ranks/slabs.hpp"
+#include "backend/slabs.hpp"
 
 #include <algorithm>
 #include <numeric>

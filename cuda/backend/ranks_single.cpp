@@ -3,7 +3,7 @@
 #include <cstring>
 
 #include "backend/error.hpp"
-#include "ranks/ranks.hpp"
+#include "backend/ranks.hpp"
 
 namespace slagflow {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "backend/platform.hpp"
-#include "ranks/ranks.hpp"
+#include "backend/ranks.hpp"
 
 namespace slagflow {
 

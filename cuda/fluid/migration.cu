@@ -1,6 +1,6 @@
 #include <cstring>
 
-#include "ranks/migration.hpp"
+#include "fluid/migration.hpp"
 
 namespace slagflow {
 

@@ -60,7 +60,8 @@ class Ranks {
   void join(void* bytes, std::size_t count);
   // What the first rank has, on all.
   void share(void* bytes, std::size_t count);
-  bool shared(bool value) {
+  template <class T>
+  T shared(T value) {
     share(&value, sizeof value);
     return value;
   }
