@@ -37,7 +37,7 @@ void* Context::allocate(std::size_t bytes, const char* what) {
                      : std::aligned_alloc(line, (bytes + beyond + line - 1) / line * line);
   if (!memory)
     throw LocalError("out of memory: " + std::string(what) + " needs " + std::to_string(bytes) + " bytes, " +
-                std::to_string(allocated_) + " are in use");
+                     std::to_string(allocated_) + " are in use");
   allocated_ += bytes;
   ++counts_.allocations;
   arrange_anew();

@@ -195,8 +195,8 @@ void reduce_together(Context& context, const char* label, const Rows& rows, cons
   auto *partial = reinterpret_cast<double*>(memory), *sums = partial + chunks * count;
   auto* flag = reinterpret_cast<std::int32_t*>(sums + planes * count);
   context.count_launch();
-  reduce_chunks<Reduction> < < <chunks> 0 ? static_cast<unsigned>(chunks) : 1, block_threads, 0,
-      stream >>> (body, n, partial, flag);
+  const auto blocks = static_cast<unsigned>(chunks > 0 ? chunks : 1);
+  reduce_chunks<Reduction><<<blocks, block_threads, 0, stream>>>(body, n, partial, flag);
   check(cudaGetLastError(), label);
   context.count_launch();
   reduce_planes<Reduction, count>

@@ -81,6 +81,10 @@ AggregateGrid AggregateGrid::coarser() const {
   return grid;
 }
 
+void gather_own(Context& context, const AggregateView& a, Buffer<double>& values, Offset each) {
+  gather_parts(context, values, a.first_own * each, a.own * each);
+}
+
 Aggregates::Aggregates(Context& c)
     : context_(c),
       held_(c, "occupied cells"),

@@ -103,6 +103,9 @@ struct AggregateView {
   Span<const Index> neighbour;   // neighbour_slots of each aggregate, -1: none
 };
 
+// Of so many numbers of each aggregate every rank has made its own: gives all of them to all.
+void gather_own(Context&, const AggregateView&, Buffer<double>& values, Offset each);
+
 class Aggregates {
  public:
   explicit Aggregates(Context&);

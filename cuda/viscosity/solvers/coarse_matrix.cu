@@ -1,4 +1,3 @@
-#include "backend/halo.hpp"
 #include "backend/launch.hpp"
 #include "viscosity/solvers/coarse_matrix.hpp"
 
@@ -299,8 +298,7 @@ void CoarseMatrix::assemble(const LinearSystem& system, const RowCells& rows) {
   const AggregateView a = aggregates_.view();
   launch(context_, "assemble aggregates", a.own,
          FromAggregate<AssembleRows>{{system, rows, a, owner_.span(), block_.span()}, a.first_own});
-  constexpr Offset each = kept_slots * block_entries;
-  if (rows.halo) gather_parts(context_, block_, a.first_own * each, a.own * each);
+  if (rows.halo) gather_own(context_, a, block_, kept_slots * block_entries);
   launch(context_, "invert blocks", a.count, InvertBlocks{block_.span(), inverse_.span()});
 }
 

@@ -318,10 +318,7 @@ void Multigrid::prepare(const RowCells& rows, Index row_count) {
   do {
     if (levels_.size() == used_) levels_.push_back(std::make_unique<Level>(context_));
     Level& level = *levels_[used_];
-    if (used_ == 0)
-      level.matrix.find(rows, row_count);
-    else
-      level.matrix.find(levels_[used_ - 1]->matrix.view());
+    used_ == 0 ? level.matrix.find(rows, row_count) : level.matrix.find(levels_[used_ - 1]->matrix.view());
     const Offset size = static_cast<Offset>(level.matrix.aggregates()) * motions;
     level.force.resize(size), level.motion.resize(size), level.rest.resize(size);
     ++used_;
@@ -388,8 +385,7 @@ void Multigrid::precondition(const LinearSystem& system, const RowCells& rows, S
   launch_level("restrict", a.own,
                FromAggregate<RestrictRows>{{system, rows, a, r, finest.force.span()}, a.first_own});
   if (rows.halo && (!state_ || goes_on_with(context_, &state_->running)))
-    gather_parts(context_, finest.force, static_cast<Offset>(a.first_own) * motions,
-                 static_cast<Offset>(a.own) * motions);
+    gather_own(context_, a, finest.force, motions);
   cycle(0);
   const ProlongToRows prolong{system, a, finest.matrix.owner(), finest.motion.span(), r, z};
   launch_reduction<AddUp>(context_, "prolong", system.size, while_running(state_, prolong), finish);
