@@ -116,21 +116,20 @@ void Residence::leave(const FluidArrays& f, Span<const OutletBox> outlets, doubl
   }
 }
 
-std::vector<ResidenceState> Residence::states(const FluidArrays& f, double now, DiagnosticScratch& scratch) {
-  if (!any()) return {};
+void Residence::states(const FluidArrays& f, double now, GatheredSums& sums,
+                       std::vector<ResidenceState>& states) {
+  if (!any()) return;
   first_on_device_.upload(first_), time_on_device_.upload(time_);
-  const double inside = total(context_, scratch, f.count,
-                              Age{f.id.span(), first_on_device_.span(), time_on_device_.span(), now}) /
-                        static_cast<double>(f.count);
-  std::vector<ResidenceState> states;
   for (const std::size_t outlet : outlets_) {
     std::vector<float> ages;
     for (std::size_t k = 0; k < age_.size(); ++k)
       if (left_by_[k] == outlet) ages.push_back(age_[k]);
     states.push_back(state_of(std::move(ages)));
-    states.back().mean_inside = inside;
   }
-  return states;
+  gather_total(sums, f.count, Age{f.id.span(), first_on_device_.span(), time_on_device_.span(), now},
+               [&states, count = static_cast<double>(f.count)](double all) {
+                 for (ResidenceState& state : states) state.mean_inside = all / count;
+               });
 }
 
 }  // namespace slagflow

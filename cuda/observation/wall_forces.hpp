@@ -37,8 +37,8 @@ class WallForces {
   void add(const PairContext&, const ListView& list, const WallArrays&, const WallForceStep&);
 
   // Since the start; torques about the lower corner of the domain.
-  WallLoad load(std::size_t body);
-  WallWork work();  // of all walls
+  void load(std::size_t body, GatheredSums&, WallLoad&) const;
+  void work(GatheredSums&, WallWork&) const;  // of all walls
 
   // Of each wall particle, in the order of ids.
   struct Impulse {
@@ -56,7 +56,6 @@ class WallForces {
   Context& context_;
   Buffer<Impulse> impulse_;
   Buffer<std::uint8_t> body_;
-  DiagnosticScratch scratch_;
 };
 
 }  // namespace slagflow
