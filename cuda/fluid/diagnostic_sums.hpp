@@ -13,6 +13,16 @@ struct OneTerm {
   HOST_DEVICE Terms<1> operator()(Index i) const { return {{static_cast<double>(term(i))}}; }
 };
 
+template <class A, class B>
+struct PairOfTerms {
+  static constexpr int terms = 2;
+  A a;
+  B b;
+  HOST_DEVICE Terms<2> operator()(Index i) const {
+    return {{static_cast<double>(a(i)), static_cast<double>(b(i))}};
+  }
+};
+
 template <int count>
 struct KeepTerms {
   double* kept;
@@ -21,24 +31,41 @@ struct KeepTerms {
   }
 };
 
-// Reduces a body with several terms and waits for them.
-template <class Reduction, class Body>
-Terms<Body::terms> reduce_terms(Context& context, DiagnosticScratch& scratch, Rows n, const Body& body) {
-  static_assert(Body::terms <= DiagnosticScratch::most_terms);
-  launch_reduction<Reduction>(context, "diagnostic sum", n, body,
-                              KeepTerms<Body::terms>{scratch.result.span().data});
-  Terms<Body::terms> all;
-  context.copy_to_host(&all, scratch.result.span().data, sizeof all);
-  return all;
+// Reduces a body with several terms; use(result) follows in sums.read(). Where on the device the result is.
+template <class Reduction, class Body, class Use>
+const double* gather_terms(GatheredSums& sums, Rows n, const Body& body, Use use) {
+  constexpr int count = Body::terms;
+  double* const place = sums.place(count, [use](const double* values) {
+    Terms<count> all;
+    for (int k = 0; k < count; ++k) all.value[k] = values[k];
+    use(all);
+  });
+  launch_reduction<Reduction>(sums.context, "diagnostic sum", n, body, KeepTerms<count>{place});
+  return place;
 }
 
-// Sum of term(i) over i in [0, n), by planes where the rows are in planes.
-template <class Term>
-double total(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
-  return reduce_terms<AddUp>(context, scratch, n, OneTerm<Term>{term}).value[0];
+// Sum of term(i) over i in [0, n), by planes where the rows are in planes: use(sum) follows.
+template <class Term, class Use>
+void gather_total(GatheredSums& sums, Rows n, Term term, Use use) {
+  gather_terms<AddUp>(sums, n, OneTerm<Term>{term}, [use](const Terms<1>& all) { use(all.value[0]); });
 }
 
 // The same of whole numbers; exact up to 2^53.
+template <class Term, class Use>
+void gather_count(GatheredSums& sums, Rows n, Term term, Use use) {
+  gather_total(sums, n, term, [use](double all) { use(static_cast<std::int64_t>(all)); });
+}
+
+// These wait for their result.
+template <class Term>
+double total(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
+  GatheredSums sums(context, scratch);
+  double result = 0;
+  gather_total(sums, n, term, [&](double all) { result = all; });
+  sums.read();
+  return result;
+}
+
 template <class Term>
 std::int64_t count(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
   return static_cast<std::int64_t>(total(context, scratch, n, term));
@@ -46,7 +73,12 @@ std::int64_t count(Context& context, DiagnosticScratch& scratch, Rows n, Term te
 
 template <class Term>
 double largest(Context& context, DiagnosticScratch& scratch, Rows n, Term term) {
-  return reduce_terms<TakeLargest>(context, scratch, n, OneTerm<Term>{term}).value[0];
+  GatheredSums sums(context, scratch);
+  double result = 0;
+  gather_terms<TakeLargest>(sums, n, OneTerm<Term>{term},
+                            [&](const Terms<1>& all) { result = all.value[0]; });
+  sums.read();
+  return result;
 }
 
 }  // namespace slagflow

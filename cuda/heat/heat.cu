@@ -52,10 +52,14 @@ struct ContentTerm {
   }
 };
 
+// The temperature and its negative.
 struct WarmestTerm {
+  static constexpr int terms = 2;
   Span<const Quad> heat;
-  double sign;
-  HOST_DEVICE double operator()(Index i) const { return sign * static_cast<double>(heat[i].x); }
+  HOST_DEVICE Terms<2> operator()(Index i) const {
+    const auto warmth = static_cast<double>(heat[i].x);
+    return {{warmth, -warmth}};
+  }
 };
 
 struct SetEntered {
@@ -328,34 +332,38 @@ double Heat::content(const FluidArrays& fluid, Span<const FluidConstants> fluids
 }
 
 // Not-a-number without fluid.
-Heat::Extremes Heat::extremes(const FluidArrays& fluid, DiagnosticScratch& scratch) const {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  if (fluid.count == 0) return {unknown, unknown};
-  const auto most = [&](double sign) {
-    return largest(context_, scratch, fluid.count, WarmestTerm{fluid.heat.span(), sign});
-  };
-  return {reference_ - most(-1), reference_ + most(1)};
+void Heat::extremes(const FluidArrays& fluid, GatheredSums& sums, double& coolest, double& hottest) const {
+  coolest = hottest = std::numeric_limits<double>::quiet_NaN();
+  if (fluid.count == 0) return;
+  gather_terms<TakeLargest>(sums, fluid.count, WarmestTerm{fluid.heat.span()},
+                            [this, &coolest, &hottest](const Terms<2>& most) {
+                              coolest = reference_ - most.value[1], hottest = reference_ + most.value[0];
+                            });
 }
 
-HeatBalance Heat::balance(const FluidArrays& fluid, Span<const FluidConstants> fluids,
-                          DiagnosticScratch& scratch) const {
-  HeatBalance balance;
-  balance.content = content(fluid, fluids, scratch);
+void Heat::balance(const FluidArrays& fluid, Span<const FluidConstants> fluids, GatheredSums& sums,
+                   HeatBalance& balance) const {
   balance.start = start_, balance.fed = fed_, balance.left = left_;
-  std::vector<double> sums, taken;
-  sums_.download(sums), site_taken_.download(taken);
-  balance.surface = sums[heat_by_surface], balance.viscous = sums[heat_by_friction];
+  gather_total(sums, fluid.count, ContentTerm{fluids, fluid.fluid.span(), fluid.enthalpy.span()},
+               [&balance](double all) { balance.content = all; });
+  double* const kept = sums.place(heat_sums, [&balance](const double* values) {
+    balance.surface = values[heat_by_surface], balance.viscous = values[heat_by_friction];
+  });
+  context_.copy_on_device(kept, sums_.span().data, heat_sums * sizeof *kept);
+  extremes(fluid, sums, balance.coolest, balance.hottest);
+  std::vector<double> taken;
+  site_taken_.download(taken);  // waits
   balance.walls.assign(bodies_count_, 0);
   for (std::size_t s = 0; s < taken.size(); ++s) balance.walls[site_bodies_[s]] += taken[s];
-  const auto [coolest, hottest] = extremes(fluid, scratch);
-  balance.coolest = coolest, balance.hottest = hottest;
-  return balance;
 }
 
 void Heat::require_possible(const FluidArrays& fluid, double time, DiagnosticScratch& scratch) const {
   constexpr double coldest = 20, hottest = 8000;  // [K]
   if (!on_ || fluid.count == 0) return;
-  const auto [least, most] = extremes(fluid, scratch);
+  GatheredSums sums(context_, scratch);
+  double least = 0, most = 0;
+  extremes(fluid, sums, least, most);
+  sums.read();
   if (least >= coldest && most <= hottest) return;
   throw Error("the fluid has from " + std::to_string(least) + " to " + std::to_string(most) + " K at " +
               std::to_string(time) + " s, and can have " + std::to_string(coldest) + " to " +

@@ -61,7 +61,7 @@ class Heat {
   void reserve(Index count);
   void launch_friction(const PairContext&, const Friction&, FluidArrays&);
 
-  HeatBalance balance(const FluidArrays&, Span<const FluidConstants>, DiagnosticScratch&) const;
+  void balance(const FluidArrays&, Span<const FluidConstants>, GatheredSums&, HeatBalance&) const;
   // Throws Error where fluid is colder or hotter than anything that is liquid or solid.
   void require_possible(const FluidArrays&, double time, DiagnosticScratch&) const;
   // [K] of each wall particle by id, that of its site; not-a-number where no heat passes.
@@ -79,10 +79,7 @@ class Heat {
   }
 
  private:
-  struct Extremes {
-    double coolest, hottest;  // [K]
-  };
-  Extremes extremes(const FluidArrays&, DiagnosticScratch&) const;
+  void extremes(const FluidArrays&, GatheredSums&, double& coolest, double& hottest) const;  // [K]
   void upload_materials(const SimulationSetup&);
   void upload_bodies(const SimulationSetup&);
   void update(FluidArrays&, Index first);

@@ -57,26 +57,17 @@ struct PressureEnergy {
   }
 };
 
-struct Momentum {
-  Span<const FluidConstants> fluids;
-  Span<const std::uint8_t> kind;
-  Span<const Quad> motion;
-  int axis;
-  HOST_DEVICE double operator()(Index i) const {
-    return static_cast<double>(fluids[kind[i]].mass) * to_double(xyz(motion[i]))[axis];
-  }
-};
-
-struct AngularMomentum {
+struct Momenta {
+  static constexpr int terms = 6;
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> kind;
   Span<const Vec3d> position;
   Span<const Quad> motion;
   Vec3d origin;
-  int axis;
-  HOST_DEVICE double operator()(Index i) const {
-    return static_cast<double>(fluids[kind[i]].mass) *
-           cross(position[i] + origin, to_double(xyz(motion[i])))[axis];
+  HOST_DEVICE Terms<6> operator()(Index i) const {
+    const auto mass = static_cast<double>(fluids[kind[i]].mass);
+    const Vec3d v = to_double(xyz(motion[i])), turn = cross(position[i] + origin, v);
+    return {{mass * v.x, mass * v.y, mass * v.z, mass * turn.x, mass * turn.y, mass * turn.z}};
   }
 };
 
@@ -95,19 +86,19 @@ struct Compression {
   Span<const FluidConstants> fluids;
   Span<const std::uint8_t> kind;
   Span<const Quad> motion;
-  Real sign;
-  HOST_DEVICE Real operator()(Index i) const { return sign * fluids[kind[i]].compression(motion[i].w); }
+  HOST_DEVICE Real operator()(Index i) const { return fluids[kind[i]].compression(motion[i].w); }
 };
 
-// 1, or a coordinate, of the particles beyond a plane; else 0.
+// Of the particles beyond a plane 1 and the coordinates, else 0.
 struct Beyond {
+  static constexpr int terms = 4;
   Span<const Vec3d> position;
   int axis, sign;
   double line;
-  int coordinate;  // -1: count
-  HOST_DEVICE double operator()(Index i) const {
-    if (sign * (position[i][axis] - line) <= 0) return 0;
-    return coordinate < 0 ? 1.0 : position[i][coordinate];
+  HOST_DEVICE Terms<4> operator()(Index i) const {
+    const Vec3d x = position[i];
+    if (sign * (x[axis] - line) <= 0) return {{0, 0, 0, 0}};
+    return {{1, x.x, x.y, x.z}};
   }
 };
 
@@ -133,16 +124,6 @@ struct CountWithinSupport {
   }
 };
 
-template <class A, class B>
-struct PairOfTerms {
-  static constexpr int terms = 2;
-  A a;
-  B b;
-  HOST_DEVICE Terms<2> operator()(Index i) const {
-    return {{static_cast<double>(a(i)), static_cast<double>(b(i))}};
-  }
-};
-
 template <class A, class B, class C, class D>
 struct FourTerms {
   static constexpr int terms = 4;
@@ -151,6 +132,17 @@ struct FourTerms {
   C c;
   D d;
   HOST_DEVICE Terms<4> operator()(Index i) const { return {{a(i), b(i), c(i), d(i)}}; }
+};
+
+// Squared speed, compression, expansion.
+struct Extremes {
+  static constexpr int terms = 3;
+  SpeedSquared speed;
+  Compression compression;
+  HOST_DEVICE Terms<3> operator()(Index i) const {
+    const auto strain = static_cast<double>(compression(i));
+    return {{static_cast<double>(speed(i)), strain, -strain}};
+  }
 };
 
 template <class Term>
@@ -169,52 +161,53 @@ PotentialEnergy potential_energy(const FluidArrays& f, Span<const FluidConstants
   return {fluids, f.fluid.span(), f.position.span(), force, -lowest};
 }
 
-FrontState measure_front(Context& c, const FluidArrays& f, const FrontSetup& front, Vec3d origin,
-                         DiagnosticScratch& scratch) {
-  FrontState state;
+void gather_front(GatheredSums& sums, const FluidArrays& f, const FrontSetup& front, Vec3d origin,
+                  FrontState& state) {
   const double line = front.position - origin[front.axis];
-  auto beyond = [&](int coordinate) {
-    return total(c, scratch, f.count, Beyond{f.position.span(), front.axis, front.sign, line, coordinate});
-  };
-  const double count = beyond(-1);
-  state.passed = static_cast<std::int64_t>(count);
-  if (count > 0)
-    for (int k = 0; k < 3; ++k) state.mean_position[k] = beyond(k) / count + origin[k];
-  if (f.count.of_all() > 0)
-    state.extreme =
-        front.sign * largest(c, scratch, f.count, Lead{f.position.span(), front.axis, front.sign}) +
-        origin[front.axis];
-  return state;
+  gather_terms<AddUp>(sums, f.count, Beyond{f.position.span(), front.axis, front.sign, line},
+                      [&state, origin](const Terms<4>& all) {
+                        const double count = all.value[0];
+                        state.passed = static_cast<std::int64_t>(count);
+                        for (int k = 0; count > 0 && k < 3; ++k)
+                          state.mean_position[k] = all.value[k + 1] / count + origin[k];
+                      });
+  if (f.count.of_all() == 0) return;
+  gather_terms<TakeLargest>(sums, f.count, OneTerm<Lead>{{f.position.span(), front.axis, front.sign}},
+                            [&state, front, origin](const Terms<1>& all) {
+                              state.extreme = front.sign * all.value[0] + origin[front.axis];
+                            });
 }
 
 }  // namespace
 
-Totals measure_totals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
-                      const SimulationSetup& setup, DiagnosticScratch& scratch) {
-  Totals t;
+void gather_totals(GatheredSums& sums, const FluidArrays& f, Span<const FluidConstants> fluids,
+                   const SimulationSetup& setup, Totals& t) {
   const Rows n = f.count;
-  const auto position = f.position.span();
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
   const Vec3d origin = setup.domain.lower;
   for (std::size_t k = 0; k < setup.fluids.size(); ++k)
-    t.mass_in += total(c, scratch, n, IsFluid{kind, static_cast<int>(k)}) * particle_mass(setup, k);
+    gather_total(sums, n, IsFluid{kind, static_cast<int>(k)},
+                 [&t, mass = particle_mass(setup, k)](double count) { t.mass_in += count * mass; });
   t.fronts.resize(setup.fronts.size());
   for (std::size_t k = 0; k < setup.fronts.size(); ++k)
-    t.fronts[k] = measure_front(c, f, setup.fronts[k], origin, scratch);
-  if (n.of_all() == 0) return t;
-  t.kinetic_energy = total(c, scratch, n, KineticEnergy{fluids, kind, motion});
-  t.potential_energy =
-      total(c, scratch, n,
-            PotentialEnergy{fluids, kind, position, setup.gravity + setup.body_acceleration, origin});
-  for (int k = 0; k < 3; ++k) {
-    t.momentum[k] = total(c, scratch, n, Momentum{fluids, kind, motion, k});
-    t.angular_momentum[k] = total(c, scratch, n, AngularMomentum{fluids, kind, position, motion, origin, k});
-  }
-  t.max_speed = std::sqrt(largest(c, scratch, n, SpeedSquared{motion}));
-  t.max_density_error = larger(0.0, largest(c, scratch, n, Compression{fluids, kind, motion, 1}));
-  t.min_density_ratio = 1 - largest(c, scratch, n, Compression{fluids, kind, motion, -1});
-  return t;
+    gather_front(sums, f, setup.fronts[k], origin, t.fronts[k]);
+  if (n.of_all() == 0) return;
+  const PotentialEnergy potential{fluids, kind, f.position.span(), setup.gravity + setup.body_acceleration,
+                                  origin};
+  gather_terms<AddUp>(
+      sums, n, PairOfTerms<KineticEnergy, PotentialEnergy>{{fluids, kind, motion}, potential},
+      [&t](const Terms<2>& all) { t.kinetic_energy = all.value[0], t.potential_energy = all.value[1]; });
+  gather_terms<AddUp>(sums, n, Momenta{fluids, kind, f.position.span(), motion, origin},
+                      [&t](const Terms<6>& all) {
+                        t.momentum = {all.value[0], all.value[1], all.value[2]};
+                        t.angular_momentum = {all.value[3], all.value[4], all.value[5]};
+                      });
+  gather_terms<TakeLargest>(sums, n, Extremes{{motion}, {fluids, kind, motion}}, [&t](const Terms<3>& most) {
+    t.max_speed = std::sqrt(most.value[0]);
+    t.max_density_error = larger(0.0, most.value[1]);
+    t.min_density_ratio = 1 - most.value[2];
+  });
 }
 
 double energy_from(Context& c, Index first, const FluidArrays& f, Span<const FluidConstants> fluids,
@@ -222,34 +215,39 @@ double energy_from(Context& c, Index first, const FluidArrays& f, Span<const Flu
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
   const Index n = f.count - first;
-  return total(c, scratch, n, From<KineticEnergy>{{fluids, kind, motion}, first}) +
-         total(c, scratch, n, From<PotentialEnergy>{potential_energy(f, fluids, setup), first}) +
-         total(c, scratch, n,
-               From<ElasticEnergy>{
-                   {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit}, first});
+  GatheredSums sums(c, scratch);
+  double energy = 0;
+  const auto add = [&energy](double part) { energy += part; };
+  gather_total(sums, n, From<KineticEnergy>{{fluids, kind, motion}, first}, add);
+  gather_total(sums, n, From<PotentialEnergy>{potential_energy(f, fluids, setup), first}, add);
+  const ElasticEnergy elastic{fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit};
+  gather_total(sums, n, From<ElasticEnergy>{elastic, first}, add);
+  sums.read();
+  return energy;
 }
 
-Vitals measure_vitals(Context& c, const FluidArrays& f, Span<const FluidConstants> fluids,
-                      const SimulationSetup& setup, DiagnosticScratch& scratch) {
+void gather_vitals(GatheredSums& sums, const FluidArrays& f, Span<const FluidConstants> fluids,
+                   const SimulationSetup& setup, Vitals& v) {
   const Rows n = f.count;
   const auto motion = f.motion.span();
   const auto kind = f.fluid.span();
-  const auto most = reduce_terms<TakeLargest>(
-      c, scratch, n, PairOfTerms<SpeedSquared, Compression>{{motion}, {fluids, kind, motion, 1}});
-  const auto energy = reduce_terms<AddUp>(
-      c, scratch, n,
-      FourTerms<KineticEnergy, PotentialEnergy, ElasticEnergy, PressureEnergy>{
-          {fluids, kind, motion},
-          potential_energy(f, fluids, setup),
-          {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit},
-          {fluids, kind, f.pressure.span()}});
-  Vitals v;
-  v.max_speed = std::sqrt(most.value[0]);
-  v.max_compression = most.value[1];
-  v.kinetic_energy = energy.value[0];
-  v.elastic_energy = energy.value[2], v.stored_energy = energy.value[1] + v.elastic_energy;
-  v.pressure_energy = energy.value[3];
-  return v;
+  gather_terms<TakeLargest>(sums, n, PairOfTerms<SpeedSquared, Compression>{{motion}, {fluids, kind, motion}},
+                            [&v](const Terms<2>& most) {
+                              v.max_speed = std::sqrt(most.value[0]);
+                              v.max_compression = most.value[1];
+                            });
+  gather_terms<AddUp>(sums, n,
+                      FourTerms<KineticEnergy, PotentialEnergy, ElasticEnergy, PressureEnergy>{
+                          {fluids, kind, motion},
+                          potential_energy(f, fluids, setup),
+                          {fluids, kind, motion, setup.numerics.sound_speed, setup.numerics.tension_limit},
+                          {fluids, kind, f.pressure.span()}},
+                      [&v](const Terms<4>& energy) {
+                        v.kinetic_energy = energy.value[0];
+                        v.elastic_energy = energy.value[2],
+                        v.stored_energy = energy.value[1] + v.elastic_energy;
+                        v.pressure_energy = energy.value[3];
+                      });
 }
 
 double mean_neighbours(Context& context, const PairContext& c, DiagnosticScratch& scratch) {

@@ -10,8 +10,8 @@ namespace slagflow {
 
 // Mass, energies, momenta, densities and fronts of the particles in the domain. Positions on the device are
 // relative to setup.domain.lower. Counts, the other masses and dissipation are the caller's.
-Totals measure_totals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
-                      DiagnosticScratch&);
+void gather_totals(GatheredSums&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                   Totals&);
 
 // What the watch looks at.
 struct Vitals {
@@ -22,8 +22,8 @@ struct Vitals {
   double elastic_energy = 0;   // [J]
   double pressure_energy = 0;  // [J] sum of |p| m/rho0
 };
-Vitals measure_vitals(Context&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
-                      DiagnosticScratch&);
+void gather_vitals(GatheredSums&, const FluidArrays&, Span<const FluidConstants>, const SimulationSetup&,
+                   Vitals&);
 
 // Kinetic and stored energy, as of Vitals, of the particles from one on [J].
 double energy_from(Context&, Index first, const FluidArrays&, Span<const FluidConstants>,

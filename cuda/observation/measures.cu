@@ -192,36 +192,39 @@ void PlaneCounters::add(const std::vector<Vec3d>& places) {
 
 void PlaneCounters::advance(Context& c, const FluidArrays& f, Span<const Quad> before,
                             DiagnosticScratch& scratch, Span<const OutletBox> outlets) {
-  const std::vector<PlaneState> now = states(c, f, before, scratch);
-  for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const Plane plane{planes_[k].axis, planes_[k].sign, place_[k]};
-    records[k].passed = now[k].passed;
-    records[k].lost_behind += count(c, scratch, f.count,
-                                    LostBehind{f.position.span(),
-                                               f.place.span(),
-                                               plane,
-                                               extent_,
-                                               {periodic_[0], periodic_[1], periodic_[2]},
-                                               outlets});
-  }
+  GatheredSums sums(c, scratch);
+  std::vector<PlaneState> now;
+  states(f, before, sums, now);
+  for (std::size_t k = 0; k < planes_.size(); ++k)
+    gather_count(sums, f.count,
+                 LostBehind{f.position.span(),
+                            f.place.span(),
+                            {planes_[k].axis, planes_[k].sign, place_[k]},
+                            extent_,
+                            {periodic_[0], periodic_[1], periodic_[2]},
+                            outlets},
+                 [&record = records[k]](std::int64_t lost) { record.lost_behind += lost; });
+  sums.read();
+  for (std::size_t k = 0; k < planes_.size(); ++k) records[k].passed = now[k].passed;
 }
 
-std::vector<PlaneState> PlaneCounters::states(Context& c, const FluidArrays& f, Span<const Quad> before,
-                                              DiagnosticScratch& scratch) const {
-  std::vector<PlaneState> result(planes_.size());
+void PlaneCounters::states(const FluidArrays& f, Span<const Quad> before, GatheredSums& sums,
+                           std::vector<PlaneState>& result) const {
+  result.resize(planes_.size());
   for (std::size_t k = 0; k < planes_.size(); ++k) {
     const int axis = planes_[k].axis;
     const Plane plane{axis, planes_[k].sign, place_[k]};
     const bool repeats = periodic_[static_cast<std::size_t>(axis)];
     const Real period = repeats ? static_cast<Real>(extent_[axis]) : Real(0);
     const Record& r = records[k];
-    result[k].passed =
-        r.passed + count(c, scratch, f.count, Crossings{before, f.place.span(), plane, period});
-    result[k].behind = count(c, scratch, f.count, Behind{f.place.span(), plane});
-    result[k].lost_behind = r.lost_behind;
-    result[k].start_behind = r.start_behind;
+    const Crossings crossings{before, f.place.span(), plane, period};
+    result[k] = {r.passed, 0, r.lost_behind, r.start_behind};
+    gather_terms<AddUp>(sums, f.count, PairOfTerms<Crossings, Behind>{crossings, {f.place.span(), plane}},
+                        [&state = result[k]](const Terms<2>& all) {
+                          state.passed += static_cast<std::int64_t>(all.value[0]);
+                          state.behind = static_cast<std::int64_t>(all.value[1]);
+                        });
   }
-  return result;
 }
 
 AroundPoint around(const ProfileSource& source) {
@@ -230,16 +233,19 @@ AroundPoint around(const ProfileSource& source) {
           source.box,        source.smoothing,        reach};
 }
 
-std::int64_t count_in_box(Context& c, const FluidArrays& f, const BoxSetup& box, Vec3d origin,
-                          DiagnosticScratch& scratch) {
-  return count(c, scratch, f.count, InBox{f.position.span(), box.lower - origin, box.upper - origin});
+void count_in_box(GatheredSums& sums, const FluidArrays& f, const BoxSetup& box, Vec3d origin,
+                  std::int64_t& count) {
+  gather_count(sums, f.count, InBox{f.position.span(), box.lower - origin, box.upper - origin},
+               [&count](std::int64_t all) { count = all; });
 }
 
-std::int64_t count_solid(Context& c, const FluidArrays& f, const SolidSetup& solid, Vec3d origin,
-                         DiagnosticScratch& scratch) {
-  if (f.heat.size() == 0) return 0;
+void count_solid(GatheredSums& sums, const FluidArrays& f, const SolidSetup& solid, Vec3d origin,
+                 std::int64_t& count) {
+  count = 0;
+  if (f.heat.size() == 0) return;
   const InBox box{f.position.span(), solid.box.lower - origin, solid.box.upper - origin};
-  return count(c, scratch, f.count, SolidInBox{box, f.heat.span(), static_cast<Real>(solid.fraction)});
+  gather_count(sums, f.count, SolidInBox{box, f.heat.span(), static_cast<Real>(solid.fraction)},
+               [&count](std::int64_t all) { count = all; });
 }
 
 std::vector<ProfilePoint> measure_profile(Context& c, const ProfileSource& source, const LineSetup& line,

@@ -34,8 +34,7 @@ class PlaneCounters {
   // Counts what has come in since, at places relative to the domain, as if it had been there from the start.
   void add(const std::vector<Vec3d>& places);
   // Now, between two rebuilds.
-  std::vector<PlaneState> states(Context&, const FluidArrays&, Span<const Quad> before,
-                                 DiagnosticScratch&) const;
+  void states(const FluidArrays&, Span<const Quad> before, GatheredSums&, std::vector<PlaneState>&) const;
 
   template <class Visitor>
   void save(Visitor& v) {
@@ -52,9 +51,9 @@ class PlaneCounters {
 };
 
 // Fluid particles in a box, its lower faces included.
-std::int64_t count_in_box(Context&, const FluidArrays&, const BoxSetup&, Vec3d origin, DiagnosticScratch&);
+void count_in_box(GatheredSums&, const FluidArrays&, const BoxSetup&, Vec3d origin, std::int64_t& count);
 // Of those in a box the ones with as many solids; none where heat is off.
-std::int64_t count_solid(Context&, const FluidArrays&, const SolidSetup&, Vec3d origin, DiagnosticScratch&);
+void count_solid(GatheredSums&, const FluidArrays&, const SolidSetup&, Vec3d origin, std::int64_t& count);
 
 // What is needed to find the particles around a point: `drift` is how far they may have moved since they were
 // sorted into the cells [m].

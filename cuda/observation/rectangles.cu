@@ -49,7 +49,10 @@ void FluxCounters::start(const FluidArrays& f) {
 }
 
 void FluxCounters::count(Context& c, const FluidArrays& f, DiagnosticScratch& scratch) {
-  const std::vector<FluxState> now = states(c, f, scratch);
+  GatheredSums sums(c, scratch);
+  std::vector<FluxState> now;
+  states(f, sums, now);
+  sums.read();
   for (std::size_t k = 0; k < now.size(); ++k)
     for (std::size_t kind = 0; kind < fluids_; ++kind) {
       counts_[2 * (k * fluids_ + kind)] = now[k].forward[kind];
@@ -65,9 +68,8 @@ void FluxCounters::follow(Context& c, const FluidArrays& f, double way, double m
   start(f);
 }
 
-std::vector<FluxState> FluxCounters::states(Context& c, const FluidArrays& f,
-                                            DiagnosticScratch& scratch) const {
-  std::vector<FluxState> states(rectangles_.size());
+void FluxCounters::states(const FluidArrays& f, GatheredSums& sums, std::vector<FluxState>& states) const {
+  states.assign(rectangles_.size(), {std::vector<std::int64_t>(fluids_), std::vector<std::int64_t>(fluids_)});
   for (std::size_t k = 0; k < states.size(); ++k)
     for (std::size_t kind = 0; kind < fluids_; ++kind) {
       const RectangleSetup& r = rectangles_[k];
@@ -82,12 +84,13 @@ std::vector<FluxState> FluxCounters::states(Context& c, const FluidArrays& f,
                           to_real(r.v),
                           static_cast<Real>(r.half_u),
                           static_cast<Real>(r.half_v)};
-      const Terms<2> passed = reduce_terms<AddUp>(c, scratch, f.count, body);
       const std::int64_t* before_that = &counts_[2 * (k * fluids_ + kind)];
-      states[k].forward.push_back(before_that[0] + static_cast<std::int64_t>(passed.value[0]));
-      states[k].backward.push_back(before_that[1] + static_cast<std::int64_t>(passed.value[1]));
+      gather_terms<AddUp>(
+          sums, f.count, body, [&state = states[k], kind, before_that](const Terms<2>& passed) {
+            state.forward[kind] = before_that[0] + static_cast<std::int64_t>(passed.value[0]);
+            state.backward[kind] = before_that[1] + static_cast<std::int64_t>(passed.value[1]);
+          });
     }
-  return states;
 }
 
 }  // namespace slagflow

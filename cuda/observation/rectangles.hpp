@@ -22,7 +22,7 @@ class FluxCounters {
   void count(Context&, const FluidArrays&, DiagnosticScratch&);
   // After a step in which no particle went farther than `way` [m]: counts when they may have gone `most`.
   void follow(Context&, const FluidArrays&, double way, double most, DiagnosticScratch&);
-  std::vector<FluxState> states(Context&, const FluidArrays&, DiagnosticScratch&) const;
+  void states(const FluidArrays&, GatheredSums&, std::vector<FluxState>&) const;
 
   template <class Visitor>
   void save(Visitor& v) {

@@ -102,12 +102,15 @@ void Residence::leave(const FluidArrays& f, Span<const OutletBox> outlets, doubl
   const std::int64_t all = count(context_, scratch, f.count, Leaves{leaving_.span()});
   if (all == 0) return;
   exclusive_scan(context_, leaving_.span(), rank_.span());
-  id_.resize(static_cast<Offset>(all)), outlet_.resize(static_cast<Offset>(all));
+  Offset own = 0;
+  context_.copy_to_host(&own, rank_.span().data + n, sizeof own);
+  id_.resize(own), outlet_.resize(own);
   launch(context_, "gather leaving particles", f.count,
          GatherLeaving{f.position.span(), outlets, f.id.span(), rank_.span(), id_.span(), outlet_.span()});
   std::vector<Index> ids;
   std::vector<std::uint8_t> by;
   id_.download(ids), outlet_.download(by);
+  ids = ranks().gathered(ids), by = ranks().gathered(by);
   const auto rows = static_cast<Offset>(first_.size());
   const Age age{{ids.data(), static_cast<Offset>(all)}, {first_.data(), rows}, {time_.data(), rows}, now};
   for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -116,21 +119,20 @@ void Residence::leave(const FluidArrays& f, Span<const OutletBox> outlets, doubl
   }
 }
 
-std::vector<ResidenceState> Residence::states(const FluidArrays& f, double now, DiagnosticScratch& scratch) {
-  if (!any()) return {};
+void Residence::states(const FluidArrays& f, double now, GatheredSums& sums,
+                       std::vector<ResidenceState>& states) {
+  if (!any()) return;
   first_on_device_.upload(first_), time_on_device_.upload(time_);
-  const double inside = total(context_, scratch, f.count,
-                              Age{f.id.span(), first_on_device_.span(), time_on_device_.span(), now}) /
-                        static_cast<double>(f.count.of_all());
-  std::vector<ResidenceState> states;
   for (const std::size_t outlet : outlets_) {
     std::vector<float> ages;
     for (std::size_t k = 0; k < age_.size(); ++k)
       if (left_by_[k] == outlet) ages.push_back(age_[k]);
     states.push_back(state_of(std::move(ages)));
-    states.back().mean_inside = inside;
   }
-  return states;
+  gather_total(sums, f.count, Age{f.id.span(), first_on_device_.span(), time_on_device_.span(), now},
+               [&states, count = static_cast<double>(f.count.of_all())](double all) {
+                 for (ResidenceState& state : states) state.mean_inside = all / count;
+               });
 }
 
 }  // namespace slagflow

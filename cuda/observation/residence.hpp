@@ -21,7 +21,7 @@ class Residence {
   void enter(Index first_id, double now);
   // Before particles are dropped: notes the ages of those in outlets.
   void leave(const FluidArrays&, Span<const OutletBox>, double now, DiagnosticScratch&);
-  std::vector<ResidenceState> states(const FluidArrays&, double now, DiagnosticScratch&);
+  void states(const FluidArrays&, double now, GatheredSums&, std::vector<ResidenceState>&);
 
   template <class Visitor>
   void save(Visitor& v) {

@@ -148,10 +148,10 @@ const Buffer<Real>& SheetThickness::measure(const PairContext& c) {
   return thickness_;
 }
 
-std::int64_t SheetThickness::count_thin(const PairContext& c, DiagnosticScratch& scratch) {
+void SheetThickness::count_thin(const PairContext& c, GatheredSums& sums, std::int64_t& count) {
   const Span<const Real> thickness = measure(c).span();
-  return count(context_, scratch, c.fluid.count,
-               IsThin{thickness, static_cast<Real>(thin_sheet) * c.flow.spacing});
+  gather_count(sums, c.fluid.count, IsThin{thickness, static_cast<Real>(thin_sheet) * c.flow.spacing},
+               [&count](std::int64_t all) { count = all; });
 }
 
 }  // namespace slagflow

@@ -20,7 +20,7 @@ class SheetThickness {
   // [m] of each particle, until the next call.
   const Buffer<Real>& measure(const PairContext&);
   // Particles in what is thinner than three spacings.
-  std::int64_t count_thin(const PairContext&, DiagnosticScratch&);
+  void count_thin(const PairContext&, GatheredSums&, std::int64_t& count);
   // What the last call gave.
   const Buffer<Real>& thickness() const { return thickness_; }
 

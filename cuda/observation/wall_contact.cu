@@ -71,18 +71,18 @@ struct PressureTerm : OfBody {
 
 // Of those with the largest pressure the least id, as its negative.
 struct PlaceTerm : OfBody {
-  double pressure;
+  const double* pressure;
   HOST_DEVICE double operator()(Index w) const {
-    return wet(w) && site[w].pressure == pressure ? -static_cast<double>(wall.id[w]) : none;
+    return wet(w) && site[w].pressure == *pressure ? -static_cast<double>(wall.id[w]) : none;
   }
 };
 
 struct PlaceOf {
   static constexpr int terms = 3;
   WallView wall;
-  Index id;
+  const double* negative_id;
   HOST_DEVICE Terms<3> operator()(Index w) const {
-    if (wall.id[w] != id) return {{0, 0, 0}};
+    if (-static_cast<double>(wall.id[w]) != *negative_id) return {{0, 0, 0}};
     const Vec3d at = to_double(xyz(wall.place[w]) + wall.normal[w].w * xyz(wall.normal[w]));
     return {{at.x, at.y, at.z}};
   }
@@ -94,8 +94,7 @@ WallContact::WallContact(Context& c)
     : context_(c),
       area_(c, "areas of wall particles"),
       body_(c, "walls of wall particles"),
-      site_(c, "contact of wall particles"),
-      scratch_(c) {}
+      site_(c, "contact of wall particles") {}
 
 void WallContact::start(const SimulationSetup& s) {
   bodies_ = s.contacts, origin_ = s.domain.lower;
@@ -103,36 +102,43 @@ void WallContact::start(const SimulationSetup& s) {
   area_.upload(s.site_area), body_.upload(s.walls.body);
 }
 
-std::vector<ContactState> WallContact::states(const PairContext& c, const ListView& list) {
-  if (bodies_.empty()) return {};
+void WallContact::states(const PairContext& c, const ListView& list, GatheredSums& sums,
+                         std::vector<ContactState>& states) {
+  if (bodies_.empty()) return;
   site_.resize(static_cast<Offset>(c.wall.count));
   auto sweep = [&](auto box) {
     launch(context_, "wall contact", c.wall.count,
            LookAtSite<decltype(box)>{c, list, box, area_.span(), site_.span()});
   };
   c.box.any() ? sweep(c.box) : sweep(OpenBox{});
-  std::vector<ContactState> states;
-  for (const std::size_t body : bodies_) states.push_back(state_of(c, static_cast<std::uint8_t>(body)));
-  return states;
+  states.resize(bodies_.size());
+  for (std::size_t k = 0; k < bodies_.size(); ++k)
+    gather(c, static_cast<std::uint8_t>(bodies_[k]), sums, states[k]);
 }
 
-ContactState WallContact::state_of(const PairContext& c, std::uint8_t body) {
+// The place of the largest pressure is found on the device.
+void WallContact::gather(const PairContext& c, std::uint8_t body, GatheredSums& sums, ContactState& state) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const Rows n = c.wall.count;
   const OfBody all{site_.span(), area_.span(), body_.span(), c.wall, body};
-  const Terms<3> areas = reduce_terms<AddUp>(context_, scratch_, n, AreaTerms{all});
-  ContactState state;
-  state.area = areas.value[0], state.wetted = areas.value[1];
-  state.mean_pressure = state.largest_pressure = unknown;
-  state.place = {unknown, unknown, unknown};
-  if (!(state.wetted > 0)) return state;
-  state.mean_pressure = areas.value[2] / state.wetted;
-  state.largest_pressure = largest(context_, scratch_, n, PressureTerm{all});
-  const double id = -largest(context_, scratch_, n, PlaceTerm{all, state.largest_pressure});
-  const Terms<3> at = reduce_terms<AddUp>(context_, scratch_, n, PlaceOf{c.wall, static_cast<Index>(id)});
-  state.place = origin_ + Vec3d{at.value[0], at.value[1], at.value[2]};
-  if (c.flow.dimensions == 2) state.place.y = 0;
-  return state;
+  const bool flat = c.flow.dimensions == 2;
+  sums.make_room(AreaTerms::terms + 1 + 1 + PlaceOf::terms);
+  gather_terms<AddUp>(sums, n, AreaTerms{all}, [&state](const Terms<3>& areas) {
+    state.area = areas.value[0], state.wetted = areas.value[1];
+    state.mean_pressure = state.wetted > 0 ? areas.value[2] / state.wetted : unknown;
+    state.largest_pressure = unknown, state.place = {unknown, unknown, unknown};
+  });
+  const double* const pressure =
+      gather_terms<TakeLargest>(sums, n, OneTerm<PressureTerm>{{all}}, [&state](const Terms<1>& most) {
+        if (state.wetted > 0) state.largest_pressure = most.value[0];
+      });
+  const double* const id =
+      gather_terms<TakeLargest>(sums, n, OneTerm<PlaceTerm>{{all, pressure}}, [](const Terms<1>&) {});
+  gather_terms<AddUp>(sums, n, PlaceOf{c.wall, id}, [this, &state, flat](const Terms<3>& at) {
+    if (!(state.wetted > 0)) return;
+    state.place = origin_ + Vec3d{at.value[0], at.value[1], at.value[2]};
+    if (flat) state.place.y = 0;
+  });
 }
 
 }  // namespace slagflow

@@ -20,7 +20,7 @@ class WallContact {
   void start(const SimulationSetup&);
 
   // `list`: for each wall particle, the fluid particles in reach. One for each of the bodies.
-  std::vector<ContactState> states(const PairContext&, const ListView& list);
+  void states(const PairContext&, const ListView& list, GatheredSums&, std::vector<ContactState>&);
 
   // Of a wall particle: its area if there is fluid, else 0, and the pressure.
   struct Site {
@@ -28,7 +28,7 @@ class WallContact {
   };
 
  private:
-  ContactState state_of(const PairContext&, std::uint8_t body);
+  void gather(const PairContext&, std::uint8_t body, GatheredSums&, ContactState&);
 
   Context& context_;
   std::vector<std::size_t> bodies_;
@@ -36,7 +36,6 @@ class WallContact {
   Buffer<double> area_;
   Buffer<std::uint8_t> body_;
   Buffer<Site> site_;
-  DiagnosticScratch scratch_;
 };
 
 }  // namespace slagflow

@@ -81,20 +81,30 @@ struct AddImpulse {
   }
 };
 
-// One of the fifteen numbers of an impulse, of one body or (-1) of all.
-struct ImpulseTerm {
+// Of one body: the components of the four vectors of an impulse, and the work.
+struct LoadTerms {
+  static constexpr int terms = 13, work_term = 12;
   Span<const Impulse> impulse;
   Span<const std::uint8_t> body;
-  int wanted, term;
+  std::uint8_t wanted;
 
-  HOST_DEVICE double operator()(Index i) const {
+  HOST_DEVICE Terms<terms> operator()(Index i) const {
+    Terms<terms> all{};
+    if (body[i] != wanted) return all;
     const Impulse& p = impulse[i];
     const Vec3d vectors[4] = {p.pressure, p.viscous, p.pressure_torque, p.viscous_torque};
-    const bool counts = wanted < 0 || body[i] == wanted;
-    const double works[3] = {p.work, p.viscous_work, p.elastic_work};
-    return counts ? (term < work_term ? vectors[term / 3][term % 3] : works[term - work_term]) : 0;
+    for (int k = 0; k < work_term; ++k) all.value[k] = vectors[k / 3][k % 3];
+    all.value[work_term] = p.work;
+    return all;
   }
-  static constexpr int work_term = 12, viscous_work_term = 13, elastic_work_term = 14;
+};
+
+struct WorkTerms {
+  static constexpr int terms = 2;
+  Span<const Impulse> impulse;
+  HOST_DEVICE Terms<2> operator()(Index i) const {
+    return {{impulse[i].viscous_work, impulse[i].elastic_work}};
+  }
 };
 
 }  // namespace
@@ -103,8 +113,7 @@ WallForces::WallForces(Context& c)
     : context_(c),
       impulse_(c, "wall impulses"),
       all_(c, "wall impulses"),
-      body_(c, "walls of wall impulses"),
-      scratch_(c) {}
+      body_(c, "walls of wall impulses") {}
 
 void WallForces::start(const std::vector<std::uint8_t>& body) {
   impulse_.upload(std::vector<Impulse>(body.size()));
@@ -180,27 +189,24 @@ Span<const WallForces::Impulse> WallForces::of_all() {
   return all_.span();
 }
 
-WallLoad WallForces::load(std::size_t body) {
+void WallForces::load(std::size_t body, GatheredSums& sums, WallLoad& load) {
   const Span<const Impulse> impulse = of_all();
   const auto n = static_cast<Index>(impulse.size);
-  const auto total = [&](int term) {
-    return slagflow::total(context_, scratch_, n,
-                           ImpulseTerm{impulse, body_.span(), static_cast<int>(body), term});
-  };
-  WallLoad load;
-  Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque, &load.viscous_torque};
-  for (int term = 0; term < ImpulseTerm::work_term; ++term) (*vectors[term / 3])[term % 3] = total(term);
-  load.work = total(ImpulseTerm::work_term);
-  return load;
+  gather_terms<AddUp>(sums, n, LoadTerms{impulse, body_.span(), static_cast<std::uint8_t>(body)},
+                      [&load](const Terms<LoadTerms::terms>& all) {
+                        Vec3d* const vectors[4] = {&load.pressure, &load.viscous, &load.pressure_torque,
+                                                   &load.viscous_torque};
+                        for (int k = 0; k < LoadTerms::work_term; ++k)
+                          (*vectors[k / 3])[k % 3] = all.value[k];
+                        load.work = all.value[LoadTerms::work_term];
+                      });
 }
 
-WallWork WallForces::work() {
+void WallForces::work(GatheredSums& sums, WallWork& work) {
   const Span<const Impulse> impulse = of_all();
-  const auto total = [&](int term) {
-    return slagflow::total(context_, scratch_, static_cast<Index>(impulse.size),
-                           ImpulseTerm{impulse, body_.span(), -1, term});
-  };
-  return {total(ImpulseTerm::viscous_work_term), total(ImpulseTerm::elastic_work_term)};
+  gather_terms<AddUp>(
+      sums, static_cast<Index>(impulse.size), WorkTerms{impulse},
+      [&work](const Terms<2>& all) { work.viscous = all.value[0], work.elastic = all.value[1]; });
 }
 
 }  // namespace slagflow

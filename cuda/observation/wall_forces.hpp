@@ -43,8 +43,8 @@ class WallForces {
   void keep(const std::vector<Index>& now);
 
   // Since the start; torques about the lower corner of the domain.
-  WallLoad load(std::size_t body);
-  WallWork work();  // of all walls
+  void load(std::size_t body, GatheredSums&, WallLoad&);
+  void work(GatheredSums&, WallWork&);  // of all walls
 
   // Of each wall particle, in the order of ids.
   struct Impulse {
@@ -65,7 +65,6 @@ class WallForces {
   Buffer<Impulse> impulse_;
   Buffer<Impulse> all_;  // of all ranks
   Buffer<std::uint8_t> body_;
-  DiagnosticScratch scratch_;
 };
 
 }  // namespace slagflow

@@ -40,12 +40,14 @@ Watch::Watch(Context& context, const SimulationSetup& setup)
 
 void Watch::begin(const FluidArrays& fluid, Span<const FluidConstants> fluids, DiagnosticScratch& scratch) {
   if (fluid.count.of_all() == 0) return;
-  const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
+  GatheredSums sums(context_, scratch);
+  Vitals vitals;
+  gather_vitals(sums, fluid, fluids, setup_, vitals);
+  sums.read();
   seen.lowest_energy = seen.recent_energy = vitals.kinetic_energy + vitals.stored_energy;
 }
 
-void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, const WatchMoment& now,
-                 DiagnosticScratch& scratch) {
+void Watch::look(const FluidArrays& fluid, const Vitals& vitals, const WatchMoment& now) {
   const LimitSetup& limits = setup_.limits;
   const double lost =
       static_cast<double>(now.departed) / larger(1.0, particles_ + static_cast<double>(now.fed));
@@ -63,7 +65,6 @@ void Watch::look(const FluidArrays& fluid, Span<const FluidConstants> fluids, co
              number(least_step) + " s",
          "a larger sound_speed or a smaller spacing");
   if (fluid.count.of_all() == 0) return;
-  const Vitals vitals = measure_vitals(context_, fluid, fluids, setup_, scratch);
   if (!(vitals.max_speed <= max_speed_))
     fail_at_worst(
         fluid, now,

@@ -24,7 +24,7 @@ class Watch {
   void begin(const FluidArrays&, Span<const FluidConstants>, DiagnosticScratch&);
 
   // Throws Error that names the limit, its value, the particle concerned with its state, and what to try.
-  void look(const FluidArrays&, Span<const FluidConstants>, const WatchMoment&, DiagnosticScratch&);
+  void look(const FluidArrays&, const Vitals&, const WatchMoment&);
 
   // What it remembers from look to look [J]; kept in checkpoints.
   struct Seen {

@@ -342,8 +342,6 @@ PairContext Simulation::State::pairs() const {
   return c;
 }
 
-WallWork Simulation::State::wall_work() { return knows_wall_forces() ? wall_forces.work() : WallWork{}; }
-
 Simulation::Simulation(const SimulationSetup& setup) : state_(std::make_unique<State>(setup)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;

@@ -39,13 +39,36 @@ void Simulation::State::tell_passed(Totals& t) const {
   }
 }
 
+// Nothing here waits but the search for levels, surfaces and ages, and the heat of walls.
+void Simulation::State::gather(GatheredSums& sums, Totals& t) {
+  gather_totals(sums, fluid, fluids.span(), setup, t);
+  sheets.count_thin(pairs(), sums, t.in_thin_sheets);
+  if (setup.measure_walls) t.walls.resize(setup.bodies.size());
+  for (std::size_t body = 0; body < t.walls.size(); ++body) wall_forces.load(body, sums, t.walls[body]);
+  planes.states(fluid, list_places.span(), sums, t.planes);
+  rectangles.states(fluid, sums, t.fluxes);
+  contact.states(pairs(), wall_to_fluid.view(), sums, t.contacts);
+  residence.states(fluid, time, sums, t.residences);
+  t.boxes.resize(setup.boxes.size()), t.solids.resize(setup.solids.size());
+  for (std::size_t k = 0; k < t.boxes.size(); ++k)
+    count_in_box(sums, fluid, setup.boxes[k], setup.domain.lower, t.boxes[k]);
+  t.heat_is_on = heat.any();
+  if (t.heat_is_on) heat.balance(fluid, fluids.span(), sums, t.heat);
+  for (std::size_t k = 0; k < t.solids.size(); ++k)
+    count_solid(sums, fluid, setup.solids[k], setup.domain.lower, t.solids[k]);
+}
+
 Totals Simulation::totals() {
   State& s = *state_;
-  Totals t = measure_totals(s.context, s.fluid, s.fluids.span(), s.setup, s.diagnostics);
+  Totals t;
+  GatheredSums sums(s.context, s.diagnostics);
+  s.gather(sums, t);
+  WallWork work;
+  if (s.knows_wall_forces()) s.wall_forces.work(sums, work);
+  sums.read();
   t.particles = s.fluid.count.of_all();
   t.mass_start = s.start_mass;
-  t.in_thin_sheets = s.sheets.count_thin(s.pairs(), s.diagnostics);
-  t.dissipated_energy = s.taken + s.wall_work().viscous;
+  t.dissipated_energy = s.taken + work.viscous;
   for (std::size_t kind = 0; kind < s.departed.size(); ++kind)
     for (std::size_t face = 0; face < faces; ++face) {
       t.departed[face] += s.departed[kind][face];
@@ -53,26 +76,13 @@ Totals Simulation::totals() {
     }
   s.tell_openings(t);
   t.impulse_time = s.time - 0.5 * s.last_dt;
-  if (s.setup.measure_walls)
-    for (std::size_t body = 0; body < s.setup.bodies.size(); ++body) {
-      t.walls.push_back(s.wall_forces.load(body));
-      WallLoad& load = t.walls.back();  // torques about the lower corner become those about the origin
-      load.pressure_torque += cross(s.setup.domain.lower, load.pressure);
-      load.viscous_torque += cross(s.setup.domain.lower, load.viscous);
-    }
+  for (WallLoad& load : t.walls) {  // torques about the lower corner become those about the origin
+    load.pressure_torque += cross(s.setup.domain.lower, load.pressure);
+    load.viscous_torque += cross(s.setup.domain.lower, load.viscous);
+  }
   s.tell_passed(t);
-  t.planes = s.planes.states(s.context, s.fluid, s.list_places.span(), s.diagnostics);
   for (const LineSetup& line : s.setup.levels) t.levels.push_back(level_of(s.profile(line)));
-  t.fluxes = s.rectangles.states(s.context, s.fluid, s.diagnostics);
   for (std::size_t k = 0; k < s.setup.surfaces.size(); ++k) t.surfaces.push_back(surface(k));
-  t.contacts = s.contact.states(s.pairs(), s.wall_to_fluid.view());
-  t.residences = s.residence.states(s.fluid, s.time, s.diagnostics);
-  for (const BoxSetup& box : s.setup.boxes)
-    t.boxes.push_back(count_in_box(s.context, s.fluid, box, s.setup.domain.lower, s.diagnostics));
-  t.heat_is_on = s.heat.any();
-  if (t.heat_is_on) t.heat = s.heat.balance(s.fluid, s.fluids.span(), s.diagnostics);
-  for (const SolidSetup& solid : s.setup.solids)
-    t.solids.push_back(count_solid(s.context, s.fluid, solid, s.setup.domain.lower, s.diagnostics));
   return t;
 }
 

@@ -146,7 +146,7 @@ struct Simulation::State {
   bool knows_wall_forces() const;
   void add_wall_forces();
   void shift();
-  WallWork wall_work();
+  void gather(GatheredSums&, Totals&);
   ProfileSource profile_source() const;
   std::vector<ProfilePoint> profile(const LineSetup&);
   void look();

@@ -12,11 +12,15 @@ void Simulation::State::look() {
   std::int64_t left = 0;
   for (const auto& by_face : departed)
     for (const std::int64_t count : by_face) left += count;
-  const WallWork work = wall_work();
-  watch.look(fluid, fluids.span(),
+  GatheredSums sums(context, diagnostics);
+  WallWork work;
+  Vitals vitals;
+  if (knows_wall_forces()) wall_forces.work(sums, work);
+  if (fluid.count.of_all() > 0) gather_vitals(sums, fluid, fluids.span(), setup, vitals);
+  sums.read();
+  watch.look(fluid, vitals,
              {now(), dt, taken + work.viscous, work.viscous + work.elastic + capillary_work, given,
-              last ? last->given : 0, steps, left, inlets.all_fed(), fed_mass()},
-             diagnostics);
+              last ? last->given : 0, steps, left, inlets.all_fed(), fed_mass()});
   heat.require_possible(fluid, now(), diagnostics);
 }
 

@@ -12,6 +12,15 @@ namespace {
 
 using namespace testing_tools;
 
+HeatBalance balance_of(const Heat& heat, Scene& scene) {
+  DiagnosticScratch scratch(scene.context);
+  GatheredSums sums(scene.context, scratch);
+  HeatBalance balance;
+  heat.balance(scene.fluid, scene.fluids.span(), sums, balance);
+  sums.read();
+  return balance;
+}
+
 // With conductivities that change with temperature, and walls of three kinds: a thick floor behind a
 // resistance, a side that is held, a plate with a flux.
 class Conduction : public testing::TestWithParam<SceneOptions> {
@@ -125,8 +134,7 @@ TEST_P(Conduction, AgreesWithTheOracle) {
     open += lost > 0, surface += lost * dt;
   }
   EXPECT_GT(open, 0);
-  DiagnosticScratch scratch(scene_.context);
-  const HeatBalance balance = heat_.balance(scene_.fluid, scene_.fluids.span(), scratch);
+  const HeatBalance balance = balance_of(heat_, scene_);
   if (!unclear) {
     EXPECT_NEAR(balance.surface, surface, 2e-4 * surface);
   }
@@ -169,10 +177,9 @@ TEST_P(Conduction, KeepsTheHeatOfFluidBetweenParticles) {
   for (WallBody& body : s.bodies) body.thermal = {};
   Heat heat(scene_.context);
   heat.start(s, {}, scene_.fluid);
-  DiagnosticScratch scratch(scene_.context);
   for (int step = 1; step <= 10; ++step)
     heat.conduct(scene_.pairs(), scene_.wall_to_fluid.view(), step * dt, scene_.fluid);
-  const HeatBalance balance = heat.balance(scene_.fluid, scene_.fluids.span(), scratch);
+  const HeatBalance balance = balance_of(heat, scene_);
   EXPECT_GT(balance.coolest, 1200);
   EXPECT_LT(balance.hottest, 1700);
   EXPECT_NEAR(balance.content, balance.start, 1e-9 * balance.start);

@@ -48,7 +48,12 @@ std::vector<double> thickness(Scene& scene) {
 
 std::int64_t thin(Scene& scene) {
   DiagnosticScratch scratch(scene.context);
-  return SheetThickness(scene.context).count_thin(scene.pairs(), scratch);
+  GatheredSums sums(scene.context, scratch);
+  SheetThickness sheets(scene.context);
+  std::int64_t count = 0;
+  sheets.count_thin(scene.pairs(), sums, count);
+  sums.read();
+  return count;
 }
 
 class Sheets : public testing::TestWithParam<int> {

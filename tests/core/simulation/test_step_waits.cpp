@@ -120,11 +120,49 @@ TEST(StepWaits, OnceInAStepOfARunThatWentOn) {
   expect_one_wait_and_one_launch_a_step(quiet_steps(second, 12));
 }
 
-TEST(StepWaits, TwiceMoreWhenTheWatchLooks) {
+TEST(StepWaits, OnceMoreWhenTheWatchLooks) {
   SimulationSetup s = tank(oil());
   s.limits.interval = 1;
   Simulation simulation(s);
-  EXPECT_EQ(quiet_steps(simulation, 8).most_waits, 3);  // for its maxima and for its sums
+  EXPECT_EQ(quiet_steps(simulation, 8).most_waits, 2);
+}
+
+std::int64_t waits_of_totals(const SimulationSetup& setup) {
+  Simulation simulation(setup);
+  for (int k = 0; k < 3; ++k) simulation.step();
+  simulation.totals();  // takes its memory
+  const std::int64_t before = simulation.device_counts().waits;
+  simulation.totals();
+  return simulation.device_counts().waits - before;
+}
+
+TEST(StepWaits, OnceForALineOfTheHistory) {
+  EXPECT_EQ(waits_of_totals(dam()), 1);
+  EXPECT_EQ(waits_of_totals(moving_dam()), 1);
+}
+
+TEST(StepWaits, OnceForALineOfTheHistoryWithManyMeasures) {
+  SimulationSetup s = moving_dam();
+  s.planes = {{0, 1, 0.06}, {1, 1, 0.01}};
+  s.boxes = {{{0, 0, 0}, {0.05, 0.05, 0.05}}};
+  s.rectangles = {{{0.07, 0, 0.02}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0.1, 0.1}};
+  s.contacts = {0, 1};
+  s.site_area.assign(s.walls.position.size(), dx * dx);
+  EXPECT_EQ(waits_of_totals(s), 1);
+}
+
+// There are places for so many numbers only.
+TEST(StepWaits, ALineWithHundredsOfBoxesWaitsMoreOften) {
+  SimulationSetup s = dam();
+  for (int k = 0; k < 600; ++k) s.boxes.push_back({{-1, -1, -1}, {0.001 * k, 1, 1}});
+  EXPECT_EQ(waits_of_totals(s), 2);
+  Simulation all(s);
+  const Totals t = all.totals();
+  for (const std::size_t k : {0, 20, 50, 300, 520, 599}) {
+    s.boxes = {{{-1, -1, -1}, {0.001 * static_cast<double>(k), 1, 1}}};
+    EXPECT_EQ(t.boxes[k], Simulation(s).totals().boxes[0]);
+  }
+  EXPECT_EQ(t.boxes[599], t.particles);
 }
 
 // For its first four iterations, for each two with multigrid, and for what it moved.
