@@ -35,6 +35,16 @@ class Bench(unittest.TestCase):
         self.assertEqual(lines[0].split(), ["benchmark", "before", "ms", "after", "ms", "ratio", "spread"])
         self.assertEqual(lines[1].split(), ["density", "10.000", "5.000", "2.00", "10%"])
 
+    def test_several_gpus_are_modelled_from_what_ranks_told_each_other(self):
+        done = subprocess.run([sys.executable, PROJECT / "scripts" / "bench", "--ranks"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = done.stdout.splitlines()
+        self.assertIn("Model", lines[0])
+        shares = [[int(word[:-1]) for word in line.split() if word.endswith("%")] for line in lines[2:]]
+        self.assertEqual(len(shares), 6)
+        for eight, sixty_four in shares:  # in per cent of what as many times the speed would be
+            self.assertTrue(0 < sixty_four < eight < 100, lines)
+
     def test_results_without_anything_in_common_are_an_error(self):
         done = compare({"density": [1]}, {"viscous": [1]})
         self.assertEqual(done.returncode, 1)

@@ -51,15 +51,15 @@ min = [-0.02, 0, -0.06]
 max = [0.2, 0.016, 0.05]
 periodic = ["y"]
 [output]
-end_time = 0.08
-interval = 0.04
+end_time = 0.06
+interval = 0.03
 history_interval = 0.01
 checkpoint_interval = 0
 [[measure]]
 name = "front"
 type = "front"
 direction = "+x"
-position = 0.065
+position = 0.05
 [[measure]]
 name = "on"
 type = "volume"
@@ -148,7 +148,7 @@ class Ranks(unittest.TestCase):
         return alone
 
     def test_a_jet_that_leaves(self):
-        self.assert_same_on((2, 3, 4), CASES / "dam_discharge_quick.toml", "--set", "output.end_time=0.3")
+        self.assert_same_on((2, 3, 4), CASES / "dam_discharge_quick.toml", "--set", "output.end_time=0.27")
 
     def test_all_measures(self):
         alone = self.assert_same_on((2, 3), self.case(TABLE))
@@ -161,7 +161,7 @@ class Ranks(unittest.TestCase):
 
     def test_cuts_at_random(self):
         self.assert_same_on((3,), self.case(PLATE), cuts=1)
-        self.assert_same_on((2, 4), self.case(TABLE), "--set", "output.end_time=0.06", cuts=7)
+        self.assert_same_on((2, 4), self.case(TABLE), "--set", "output.end_time=0.03", cuts=7)
 
     def test_copies_that_are_old_are_not_read(self):
         self.assert_same_on((3,), self.case(PLATE), "--set", "output.end_time=0.01", cuts=2, poison=True)
@@ -169,7 +169,7 @@ class Ranks(unittest.TestCase):
         self.assert_same_on((2,), case, "--set", "output.end_time=0.002", poison=True)
 
     def test_inlets_and_outlets(self):
-        alone = self.assert_same_on((2, 3), CASES / "verification" / "fed_channel.toml", "--set", "output.end_time=0.1",
+        alone = self.assert_same_on((2, 3), CASES / "verification" / "fed_channel.toml", "--set", "output.end_time=0.03",
                                     cuts=4)
         self.assertGreater(json.loads((alone / "summary.json").read_text())["mass_fed"], 0)
 
