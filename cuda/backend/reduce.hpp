@@ -155,8 +155,10 @@ __global__ void reduce_planes(Rows n, const double* partial, double* sums) {
       own.value[k] = Reduction::combine(own.value[k], partial[chunk * count + k]);
   for (int k = 0; k < count; ++k) {
     constexpr unsigned lanes = (1u << plane_lanes) - 1;
-    for (unsigned step = plane_lanes / 2; step > 0; step /= 2)
-      own.value[k] = Reduction::combine(own.value[k], __shfl_down_sync(lanes, own.value[k], step));
+    for (int step = plane_lanes / 2; step > 0; step /= 2) {
+      const double other = __shfl_down_sync(lanes, own.value[k], step, plane_lanes);
+      own.value[k] = Reduction::combine(own.value[k], other);
+    }
     if (lane == 0) sums[static_cast<Offset>(plane) * count + k] = own.value[k];
   }
 }
