@@ -44,6 +44,7 @@ class Ordering {
   // With several ranks: deals all particles of the start, with these places in the domain, out by their
   // number in each plane; sort() then keeps those of its slab.
   void deal_out(const std::vector<Vec3d>& fluid, const std::vector<Vec3d>& walls);
+  bool owns(Vec3d place) const;
   // The same of fluid that is in order already, by its places then: how much of it is this rank's, and at the
   // ends of its slab.
   struct Dealt {

@@ -55,6 +55,12 @@ void Ordering::deal_out(const std::vector<Vec3d>& fluid, const std::vector<Vec3d
   add(fluid, of_fluid), add(walls, of_wall);
   slabs_.balance(weight);
   take_cuts();
+  fluid_dealt_ = true;
+}
+
+bool Ordering::owns(Vec3d place) const {
+  const int plane = grid_.local_plane(grid_.plane_at(to_real(place)));
+  return plane >= 0 && plane < grid_.slab.own;
 }
 
 Ordering::Dealt Ordering::deal_out(const std::vector<Quad>& places) {

@@ -179,8 +179,8 @@ PlaneCounters::PlaneCounters(const SimulationSetup& setup)
 
 void PlaneCounters::begin(Context& c, const FluidArrays& f, DiagnosticScratch& scratch) {
   for (std::size_t k = 0; k < planes_.size(); ++k)
-    records[k].start_behind =
-        count(c, scratch, f.count, Behind{f.place.span(), {planes_[k].axis, planes_[k].sign, place_[k]}});
+    records[k].start_behind = ranks().added(
+        count(c, scratch, f.count, Behind{f.place.span(), {planes_[k].axis, planes_[k].sign, place_[k]}}));
 }
 
 void PlaneCounters::add(const std::vector<Vec3d>& places) {

@@ -109,7 +109,8 @@ Simulation::State::State(const SimulationSetup& s)
   departed.resize(s.fluids.size());
   ordering.set_outlets(outlet_boxes(s), s.fluids.size());
   time = setup.start_time, last_dt = setup.last_step;
-  deal_out();
+  take_stock();
+  if (ranks().several()) deal_out();
   upload_fluid();
   dt = full_dt = longest_step();
   upload_walls();
@@ -123,14 +124,24 @@ Simulation::State::State(const SimulationSetup& s)
   watch.begin(fluid, fluids.span(), diagnostics);
 }
 
+// Of all fluid, which remembers something from here on.
+void Simulation::State::take_stock() {
+  FluidParticles& p = setup.particles;
+  if (p.memory.id.empty()) p.memory = memory_at_rest(setup);
+  std::vector<std::int64_t> count(setup.fluids.size());
+  for (const std::uint8_t kind : p.fluid) ++count[kind];
+  for (std::size_t kind = 0; kind < count.size(); ++kind)
+    start_mass += static_cast<double>(count[kind]) * particle_mass(setup, kind);
+  start_count = p.memory.id.empty() ? 0 : p.memory.id.back() + 1;
+}
+
 void Simulation::State::upload_fluid() {
   auto& p = setup.particles;
   const std::size_t n = p.position.size();
-  const FluidMemory memory = p.memory.id.empty() ? memory_at_rest(setup) : std::move(p.memory);
+  const FluidMemory memory = std::move(p.memory);
   const auto constants = fluid_constants(setup);
   std::vector<Vec3d> position(n);
   std::vector<Quad> place(n), motion(n), by_pressure(n), state(n);
-  std::vector<std::int64_t> count(setup.fluids.size());
   for (std::size_t i = 0; i < n; ++i) {
     const auto& f = constants[p.fluid[i]];
     position[i] = p.position[i] - setup.domain.lower;
@@ -138,11 +149,7 @@ void Simulation::State::upload_fluid() {
     by_pressure[i] = quad(memory.by_pressure[i], 0);
     state[i] = {static_cast<Real>(p.pressure[i]), viscosity(f.rheology, 0), place[i].w, f.mass};
     motion[i] = quad(to_real(p.velocity[i]), memory.excess[i]);
-    ++count[p.fluid[i]];
   }
-  for (std::size_t kind = 0; kind < count.size(); ++kind)
-    start_mass += static_cast<double>(count[kind]) * particle_mass(setup, kind);
-  start_count = memory.id.empty() ? 0 : memory.id.back() + 1;
   fluids.upload(constants);
   fluid.resize(static_cast<Index>(n));
   fluid.position.upload(position), fluid.place.upload(place), fluid.motion.upload(motion),

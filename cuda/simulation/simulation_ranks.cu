@@ -4,15 +4,38 @@
 
 namespace slagflow {
 
-// The ranks begin with all particles each, and keep theirs at the first sort.
+namespace {
+
+template <class T>
+void keep_only(const std::vector<std::size_t>& kept, std::vector<T>& values) {
+  if (values.empty()) return;
+  std::vector<T> result;
+  result.reserve(kept.size());
+  for (const std::size_t i : kept) result.push_back(values[i]);
+  values = std::move(result);
+}
+
+}  // namespace
+
+// Of the fluid of the start a rank uploads that of its slab; of walls all, and keeps its own at the first
+// sort.
 void Simulation::State::deal_out() {
-  if (!ranks().several()) return;
   const auto places = [&](const std::vector<Vec3d>& positions) {
     std::vector<Vec3d> result;
     for (const Vec3d& x : positions) result.push_back(x - setup.domain.lower);
     return result;
   };
-  ordering.deal_out(places(setup.particles.position), places(setup.walls.position));
+  FluidParticles& p = setup.particles;
+  const std::vector<Vec3d> fluid_places = places(p.position);
+  ordering.deal_out(fluid_places, places(setup.walls.position));
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < fluid_places.size(); ++i)
+    if (ordering.owns(fluid_places[i])) kept.push_back(i);
+  keep_only(kept, p.position), keep_only(kept, p.velocity), keep_only(kept, p.pressure);
+  keep_only(kept, p.fluid), keep_only(kept, p.temperature);
+  FluidMemory& m = p.memory;
+  keep_only(kept, m.excess), keep_only(kept, m.hollow), keep_only(kept, m.packing);
+  keep_only(kept, m.by_pressure), keep_only(kept, m.id), keep_only(kept, m.enthalpy);
 }
 
 void Simulation::State::sort_walls() {

@@ -87,6 +87,7 @@ struct Simulation::State {
   SideStream side_stream;
   StateTransfer own_transfer;
 
+  void take_stock();
   void deal_out();
   void upload_fluid();
   void upload_walls();

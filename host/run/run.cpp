@@ -54,6 +54,13 @@ void write_start(const StartState& start, const std::string& folder) {
   flush_to_disk(path);
 }
 
+void take_folder(const std::string& folder, std::optional<FolderLock>& lock, Log& log) {
+  create_folder(folder);
+  lock.emplace(folder);
+  clear_folder(folder);
+  log.open(folder + "/log.txt");
+}
+
 // `start`: where it does not begin with the regions of the case.
 RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
   InterruptGuard signals;
@@ -74,19 +81,14 @@ RunOutcome begin(const Case& c, const RunOptions& options, StartState* start) {
   if (start) take_state(*start, built);
   if (ranks().several()) require_shareable(built.setup);
   built.setup.time_parts = options.time_parts;
-  const double on_device = device_info().memory;
+  const double on_device = device_info().memory * ranks().size();  // each has its part of the fluid
   require_memory(built, on_device > 0 ? on_device : available_memory());
 
   if (ranks().shared(signals.requested())) return interrupted_before(folder);
 
   Log log(options.verbosity);
   std::optional<FolderLock> lock;
-  on_first_rank([&] {
-    create_folder(folder);
-    lock.emplace(folder);
-    clear_folder(folder);
-    log.open(folder + "/log.txt");
-  });
+  on_first_rank([&] { take_folder(folder, lock, log); });
   warn_of_threads(options.threads, log);
   for (const std::string& warning : check_case(built).warnings) log.warning(warning);
   if (start) {

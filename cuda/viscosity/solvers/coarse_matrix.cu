@@ -298,7 +298,7 @@ void CoarseMatrix::assemble(const LinearSystem& system, const RowCells& rows) {
   const AggregateView a = aggregates_.view();
   launch(context_, "assemble aggregates", a.own,
          FromAggregate<AssembleRows>{{system, rows, a, owner_.span(), block_.span()}, a.first_own});
-  if (rows.halo) gather_own(context_, a, block_, kept_slots * block_entries);
+  if (rows.halo) gather_own(context_, a, block_, static_cast<Offset>(kept_slots) * block_entries);
   launch(context_, "invert blocks", a.count, InvertBlocks{block_.span(), inverse_.span()});
 }
 

@@ -57,7 +57,7 @@ TEST(Slabs, WithoutFluidStayWhereTheyAre) {
 TEST(Slabs, TooManyRanksAreAnErrorThatSaysHowManyMay) {
   EXPECT_NO_THROW(Slabs(8, false, 4));
   try {
-    Slabs(8, false, 5);
+    const Slabs slabs(8, false, 5);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("at most 4 ranks"), std::string::npos) << error.what();
